@@ -2,18 +2,95 @@
 #include "yade_api/naming.hpp"
 #include "yade_api/conversion.hpp"
 #include <algorithm>
+#include <map>
 
 namespace yade {
 
+namespace {
+	// Symbols and words of the field, in lower case, and what the project calls them.
+	const std::multimap<string, string> ofTheField {
+		{ "e", "young" },
+		{ "emod", "young" },
+		{ "modulus", "young" },
+		{ "g", "shearModulus" },
+		{ "g", "gravity" },
+		{ "nu", "poisson" },
+		{ "v", "poisson" },
+		{ "rho", "density" },
+		{ "gamma", "density" },
+		{ "gamma", "unitWeight" },
+		{ "phi", "frictionAngle" },
+		{ "phi", "friction" },
+		{ "psi", "dilationAngle" },
+		{ "c", "cohesion" },
+		{ "c", "adhesion" },
+		{ "su", "undrainedStrength" },
+		{ "cu", "undrainedStrength" },
+		{ "sy", "yieldStress" },
+		{ "sigmay", "yieldStress" },
+		{ "m", "criticalStateRatio" },
+		{ "lambda", "compressionIndex" },
+		{ "lam", "compressionIndex" },
+		{ "kappa", "swellingIndex" },
+		{ "pc", "preconsolidation" },
+		{ "k", "conductivity" },
+		{ "permeability", "conductivity" },
+		{ "n", "porosity" },
+		{ "kw", "waterModulus" },
+		{ "kw", "bulkModulus" },
+		{ "ea", "axialStiffness" },
+		{ "ei", "bendingStiffness" },
+		{ "mp", "plasticMoment" },
+		{ "mu", "friction" },
+		{ "h", "cellSize" },
+		{ "dx", "cellSize" },
+		{ "size", "cellSize" },
+		{ "p", "pressure" },
+		{ "q", "pressure" },
+		{ "acceleration", "history" },
+		{ "phic", "strengthReduction" },
+		{ "fos", "strengthReduction" },
+		{ "srf", "strengthReduction" },
+		{ "factorofsafety", "strengthReduction" },
+		{ "safety", "strengthReduction" },
+		{ "k0", "geostatic" },
+		{ "initialstress", "geostatic" },
+		{ "excavate", "stages" },
+		{ "dig", "excavate" },
+		{ "dig", "stages" },
+		{ "place", "stages" },
+		{ "build", "place" },
+		{ "replace", "stages" },
+		{ "release", "stages" },
+		{ "flow", "seepage" },
+		{ "groundwater", "seepage" },
+		{ "points", "arrays" },
+		{ "animation", "movie" },
+		{ "film", "movie" },
+		{ "mesh", "solid" },
+		{ "stl", "solid" },
+		{ "dem", "terrain" },
+		{ "triaxial", "elementTest" },
+		{ "oedometer", "elementTest" },
+	};
+}
+
 string didYouMean(const string& name, const vector<string>& known)
 {
+	const string   lower = py::extract<string>(py::str(name).lower());
+	vector<string> meant;
+	for (auto [one, last] = ofTheField.equal_range(lower); one != last; ++one)
+		if (std::count(known.begin(), known.end(), one->second) > 0) meant.push_back(one->second);
 	py::dict byLowerCase;
 	for (const string& one : known)
 		byLowerCase[py::str(one).lower()] = one;
 	const py::object like = py::import("difflib").attr("get_close_matches")(py::str(name).lower(), py::list(byLowerCase.keys()));
-	string           text;
-	for (py::ssize_t i = 0, count = py::len(like); i < count; ++i)
-		text += (i == 0 ? "; did you mean " : i + 1 < count ? ", " : " or ") + repr(byLowerCase[like[i]]);
+	if (meant.empty())
+		for (py::ssize_t i = 0; i < py::len(like); ++i)
+			meant.push_back(py::extract<string>(byLowerCase[like[i]]));
+	string text;
+	for (size_t i = 0; i < meant.size(); ++i)
+		text += (i == 0 ? "; did you mean " : i + 1 < meant.size() ? ", " : " or ") + repr(py::str(meant[i]));
 	return text.empty() ? text : text + "?";
 }
 

@@ -9,10 +9,9 @@ target = os.path.join(root, 'plugin', 'python', 'mpm', 'scripts.py')
 
 
 def isForUsers(path):
-	"""Scripts that make a scene and say what they are: those of tasks, and those of the course that take options."""
+	"""Scripts that make a scene and say what they are: all that YADE runs by themselves."""
 	with open(path) as file:
-		text = file.read()
-	return text.startswith('#!/usr/bin/env yade') and ('/tasks/' in path or 'readOptions(' in text)
+		return file.readline().startswith('#!/usr/bin/env yade')
 
 
 def entry(path):

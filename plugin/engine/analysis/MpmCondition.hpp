@@ -97,6 +97,9 @@ public:
 	// What can be meant, but seldom is: sentences, by what they are about. The same ones in all processes.
 	virtual std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& /*name*/) const { return {}; }
 
+	// The same, asked once, before the first step of an engine.
+	virtual string firstDoubt(const string& /*name*/) const { return ""; }
+
 	// Whether it may hold the soil at this coordinate along the axis, to a distance.
 	virtual bool mayHold(int /*axis*/, Real /*place*/, Real /*near*/) const { return false; }
 

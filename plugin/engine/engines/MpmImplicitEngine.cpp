@@ -173,6 +173,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	for (const auto& condition : job.conditions)
 		for (const auto& [about, warning] : condition->warnings())
 			warn(plausibility.once(about, warning));
+	warn(plausibility.once("noUnknowns", warningOfNoUnknowns(*this)));
 	if (job.moving) warn(plausibility.once("gift", job.moving->warningOfContact()));
 	else {
 		warn(plausibility.once("ghostShare", warningOfShare(*this)));

@@ -9,6 +9,7 @@
 #include "engine/engines/Threads.hpp"
 #include "engine/engines/build_model.hpp"
 #include "engine/materials/laws.hpp"
+#include "engine/messages/first_step.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -187,6 +188,23 @@ namespace {
 	}
 }
 
+// Sentences for mpm.advise, which a first step would begin with.
+static py::dict doubts(const MpmImplicitEngine& engine)
+{
+	requireUndivided(engine);
+	const auto inSpace = [&](auto dim) {
+		constexpr int   Dim = decltype(dim)::value;
+		const ValueLock lock;
+		const auto      now = currentState<Dim>(engine);
+		return warningsOfFirstStep(engine, materialPoints(*engine.ownScene(), engine.mask), now.cloud, now.model);
+	};
+	const auto found = engine.grid && engine.grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
+	py::dict   sentences;
+	for (const auto& [about, sentence] : found)
+		if (!sentence.empty()) sentences[about] = sentence;
+	return sentences;
+}
+
 static Real loadsEnd(const MpmImplicitEngine& engine)
 {
 	const ValueLock lock;
@@ -195,6 +213,8 @@ static Real loadsEnd(const MpmImplicitEngine& engine)
 
 void addStudyMethods(py::object pythonClass)
 {
+	py::objects::add_to_namespace(
+	        pythonClass, "_doubts", py::make_function(&doubts), "_doubts() -> dict\n\nWhat the first step would warn of by its subject, for mpm.advise.");
 	py::objects::add_to_namespace(
 	        pythonClass, "loadsEnd", py::make_function(&loadsEnd),
 	        "loadsEnd() -> float\n\nTime [s] when the last of the curves of loads has come to rest: those of the engine, of its loads, its "

@@ -28,6 +28,7 @@ template <int Dim> string warningOfLattice(const vector<MaterialPoint>& points, 
 {
 	// Points that have been deformed may count displacements from where they were then, as after
 	// mpm.stages.resetDisplacements.
+	if (points.empty()) return "";
 	const bool areDeformed = !points.front().state->defGrad.isIdentity(1e-12);
 	if (areDeformed || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) { return InCells<Dim>(point, grid).isOnLattice(); }))
 		return "";

@@ -64,6 +64,10 @@ public:
 	shared_ptr<State> newAssocState() const override;
 	bool              stateTypeOk(State*) const override;
 	void              requireAdmissible() const override;
+	void              pyHandleCustomCtorArgs(py::tuple&, py::dict& named) override { isDensityGiven = named.has_key("density"); }
+
+	// Whether a script has made it without a density, and has not changed that since.
+	bool hasDefaultDensity() const { return !isDensityGiven && density == Material().density; }
 
 	// std::invalid_argument if no step can begin from this state of a point.
 	virtual void requireStart(const Matrix3r& /*stress*/) const { }
@@ -76,6 +80,9 @@ public:
 	using Quantities = vector<std::pair<const char*, Real>>;
 	virtual Quantities moduli() const { return {}; }
 	virtual Quantities strengths() const { return {}; }
+
+private:
+	bool isDensityGiven = true; // unless it is constructed by a script; not saved
 };
 
 } // namespace yade

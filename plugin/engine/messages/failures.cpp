@@ -234,4 +234,13 @@ string warningOfLoosePoints(const Analysis& engine)
 	return text.str();
 }
 
+string warningOfNoUnknowns(const Analysis& engine)
+{
+	const auto all     = engine.conditions();
+	const auto isActed = [](const Listed& listed) { return listed.condition->moves() || string(listed.list) == "flow"; };
+	if (engine.isExplicit() || engine.dofs > 0 || std::any_of(all.begin(), all.end(), isActed)) return "";
+	return "all nodes that material points touch are held in all directions, and none of them is moved, so that no point can move. An MpmBoundary without min "
+	       "and max holds the whole grid; max=(inf, 0, inf) holds what is at y <= 0.";
+}
+
 } // namespace yade

@@ -19,5 +19,6 @@ string warningOfAccepted(const gimpm::StepReport&, const Analysis&, Real time);
 // Empty if it is not so.
 string warningOfShare(const Analysis&);
 string warningOfLoosePoints(const Analysis&);
+string warningOfNoUnknowns(const Analysis&);
 
 } // namespace yade

@@ -7,6 +7,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/lattice.hpp"
 #include "engine/grid/overlaps.hpp"
+#include "engine/messages/first_step.hpp"
 #include "engine/messages/idle.hpp"
 #include "engine/messages/units.hpp"
 #include "engine/parallel/distribution.hpp"
@@ -132,6 +133,16 @@ namespace {
 		for (const Listed& listed : engine.conditions())
 			for (const auto& [about, warning] : listed.condition->warnings(engine, isDivided(engine) ? none : points, listed.name()))
 				if (found[about].empty()) found[about] = warning;
+		return found;
+	}
+
+	// Points that are as they were filled: in the first step all, later those of stages that are placed.
+	vector<MaterialPoint> newOf(const vector<MaterialPoint>& points, bool areFirst)
+	{
+		vector<MaterialPoint> found;
+		std::copy_if(points.begin(), points.end(), std::back_inserter(found), [&](const MaterialPoint& p) {
+			return areFirst || (p.state->defGrad.isIdentity(0) && p.state->pos == p.state->refPos);
+		});
 		return found;
 	}
 
@@ -271,7 +282,10 @@ vector<string> Plausibility::look(
 	say(sentences, "gravityUpwards", warningOfGravity(engine.gravity));
 	say(sentences, "largeCells", warningOfCells(model.grid.cellSize, smallest));
 	say(sentences, "units", warningOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
-	if (areFirst) say(sentences, "lattice", warningOfLattice<Dim>(points, model.grid));
+	if (areFirst)
+		for (const auto& [about, warning] : warningsOfFirstStep(engine, points, cloud, model))
+			say(sentences, about, warning);
+	if (areNew) say(sentences, "lattice", warningOfLattice<Dim>(newOf(points, areFirst), model.grid));
 	say(sentences, "tension", warningOfTension(engine.gravity, initialStress));
 	say(sentences, "overlap", overlap);
 	for (const auto& [about, warning] : warningsOfConditions(engine, points))

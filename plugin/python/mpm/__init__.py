@@ -63,6 +63,8 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
+from yade import wrapper as _wrapper
+
 from . import processes
 from .advice import advise
 from .bending import sectionForces
@@ -111,5 +113,10 @@ for _name in stages.__all__:
 
 
 def __getattr__(name):
-	meant = '' if name.startswith('_') else _didYouMean(name, __all__ + ['stages'])
+	if name.startswith('_'): raise AttributeError(f"module 'yade.mpm' has no attribute {name!r}")
+	classes = [known for known in dir(_wrapper) if known.startswith('Mpm')]
+	if name in classes: raise AttributeError(f"module 'yade.mpm' has no attribute {name!r}: the classes are beside YADE's own, so write {name}(...) without mpm.")
+	meant = _didYouMean(name, __all__ + ['stages'])
+	if name in stages.__all__: meant = f"; did you mean 'mpm.stages.{name}'?"
+	elif name.startswith('Mpm'): meant = _didYouMean(name, classes)
 	raise AttributeError(f"module 'yade.mpm' has no attribute {name!r}{meant}")

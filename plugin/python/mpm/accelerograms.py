@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files of strong-motion records: accelerations at equal steps of time, and their unit."""
 import re
+from types import SimpleNamespace
 
 import numpy as np
 
+from . import networks
 from .messages import brief, pathOf
 
 standardGravity = 9.80665  # [m/s2]
@@ -12,12 +14,13 @@ _fewest = 8  # samples that a record must have
 _tolerance = 0.02  # of the step: how far times may be from equal steps, as they are written with few digits
 
 
-def read(source, quantity, unit):
-	"""Time of the first sample [s], step [s], values in SI units, the name of the source, and the unit as it was found.
+def read(source, quantity, unit, channel):
+	"""What a source has: `begin`, the time of the first sample [s], `step` [s], `values` in SI units, the `name` of the source, `unit`, `title` and `isCorrected` as they were found.
 
 	:param source: path of a file, or pairs (time [s], value)
 	:raises ValueError: no unit, lines that cannot be read, values that are not finite, steps that differ, too few samples.
 	"""
+	found = None
 	if isinstance(source, (list, tuple, np.ndarray)):
 		name, told = 'the array', None
 		first, step, values = _equallySpaced(name, *_pairs(source))
@@ -26,13 +29,16 @@ def read(source, quantity, unit):
 		name = repr(path)
 		with open(path, encoding='utf-8', errors='replace') as file:
 			lines = file.read().splitlines()
+		found = networks.series(name, lines, quantity, channel)
 		isPeer = any(_heading(line) for line in lines[:8])
-		told = _unitOfHeading(lines[:4]) if isPeer else None
-		first, step, values = _readPeer(name, lines) if isPeer else _equallySpaced(name, *_columns(name, lines))
+		told = found.unit if found else _unitOfHeading(lines[:4]) if isPeer else None
+		first, step, values = (0., found.step, found.values) if found else _readPeer(name, lines) if isPeer else _equallySpaced(name, *_columns(name, lines))
+	if channel is not None and found is None: raise ValueError(f'record: channel = {brief(channel)}, but {name} has no channels: that is for files of COSMOS and CSMIP')
 	unit = _chosenUnit(name, quantity, unit, told)
 	if len(values) < _fewest: raise ValueError(f'record: {name} has {len(values)} samples; a record has {_fewest} at least: is it empty, or cut off?')
 	if not values.any(): raise ValueError(f'record: all {len(values)} values of {name} are 0: is it the column of another direction?')
-	return first, step, values * unitsOf[quantity][unit], name, unit
+	title, isCorrected = (found.title, found.isCorrected) if found else ('', None)
+	return SimpleNamespace(begin=first, step=step, values=values * unitsOf[quantity][unit], name=name, unit=unit, title=title, isCorrected=isCorrected)
 
 
 def _chosenUnit(name, quantity, unit, told):
@@ -54,10 +60,12 @@ def _heading(line):
 
 
 def _unitOfHeading(lines):
+	"""The unit that a PEER file tells, or the quantity if that is told alone; None if neither is."""
 	text = ' '.join(lines).upper()
-	found = re.search(r'UNITS?\s+OF\s+(CM/S\S*|M/S\S*|G)\b', text) or re.search(r'UNITS?\s+(?:IS|ARE|:|=)\s*(CM/S\S*|M/S\S*|G)\b', text)
-	if not found: return None
-	return found[1].lower().rstrip('.,;').replace('sec', 's').replace('/s/s', '/s2').replace('/s^2', '/s2').replace('/s**2', '/s2')
+	found = re.search(r'UNITS?\s+(?:OF|IS|ARE|:|=)\s*(\S+)', text)
+	if found: return networks.unitNamed(found[1])
+	other = re.search(r'\b(VELOCITY|DISPLACEMENT)\s+TIME\s+(?:HISTORY|SERIES)', text)
+	return other and other[1].lower()
 
 
 def _readPeer(name, lines):

@@ -24,6 +24,7 @@ _bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
 # the soil does not dilate, 29 % for 3 degrees, 25 % for a quarter of the friction, 19 % for half of it, 13 % for three
 # quarters.
 _littleDilation = 0.5
+_saidBelow = 'locking', 'firstDoubt'  # of what the first step warns: fBar, and motions of a base
 _manyIterations = 250  # of conjugate gradients to 1e-3: as long as multigrid takes with being set up
 _bytesOfOutput = 560  # of a point in an MpmVtkRecorder's files
 
@@ -125,7 +126,7 @@ class _Scene:
 
 def _notNeeded(scene):
 	"""What the scene uses and does not need, or lacks; numbers are those of examples/trade and examples/extremes."""
-	solver, found = scene.solver, []
+	solver, found = scene.solver, [f'settings: {sentence}' for about, sentence in scene.solver._doubts().items() if about not in _saidBelow]
 	if scene.dim == 3 and scene.uniformAlongZ():
 		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
 	if solver.iterPeriod == 1 and scene.steps > 1e6:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A word when the script ends before the simulation does."""
+"""Words when the script ends before the simulation does, or before what it has begun."""
+import ast
 import atexit
 import sys
 import time
@@ -21,3 +22,19 @@ def _sayIfRunning():
 	time.sleep(.1)  # for a step that has just begun
 	while scene.subStep >= 0 and time.monotonic() < deadline:
 		time.sleep(.01)
+
+
+@atexit.register
+def _sayWhatIsLeft():
+	"""Films that are not written, and stages of construction that no step has followed."""
+	for kind in 'viewing', 'movies':
+		for film in getattr(sys.modules.get('yade.mpm.' + kind), '_running', {}).values():
+			sys.stderr.write(f'\nyade.mpm: {film.fileName!r} is not written, and its {film.frames} pictures are lost: call finish() of {type(film).__name__} after the run.\n')
+	engines = list(wrapper.Omega().engines)
+	for i, engine in enumerate(engines):
+		if engine.dead or not engine.label.startswith('stage_'): continue
+		kind, _, first, steps, _ = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
+		solver = next((one for one in engines[i:] if isinstance(one, wrapper.MpmImplicitEngine)), None)
+		if solver is None or solver.nDone > first: continue
+		what = {'placed': 'place', 'excavated': 'excavate', 'replaced': 'replace'}[kind]
+		sys.stderr.write(f'\nyade.mpm: mpm.stages.{what}(..., steps={steps}) was not followed by a step, so that nothing has come of it: call O.run({steps}, wait=True) after it.\n')

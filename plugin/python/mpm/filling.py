@@ -7,6 +7,7 @@ import numpy as np
 from yade import wrapper
 from yade.minieigenHP import Vector3
 
+from . import processes
 from .bodies import bodyNumber
 from .data import isParameter, ofPositions, table
 from .library import engine
@@ -14,6 +15,8 @@ from .messages import brief, place
 from .naming import didYouMean, materialOf
 from .processes import together
 from .regions import bounds, each, inside, requireRightWay, volumeInBoxes
+
+_bytesOfBody = 1400  # of a material point, its state and its shape
 
 
 def fill(predicate, grid, pointsPerCell, material, body=None, **parameters):
@@ -131,11 +134,12 @@ def _latticePoints(predicate, grid, n):
 	candidates = math.prod(len(c) * n for c in cells)
 	# in slabs across the last axis, which bounds the memory of the points that are rejected
 	slabs = np.array_split(cells[-1], candidates // 2**20 + 1)
-	kept = {}
+	kept, room = {}, _room()
 	for slab in slabs:
 		points = _cellPoints(cells[:-1] + [slab], grid, n)
 		for size, own in _ofLeaves(points, grid, n):
 			kept.setdefault(size, []).append(own[inside(predicate, own)])
+		_requireRoom(sum(len(own) for parts in kept.values() for own in parts), room, grid, n)
 	bySize = {size: np.concatenate(kept[size]) for size in sorted(kept, reverse=True)}
 	positions, sizes = np.concatenate(list(bySize.values())), np.repeat(list(bySize), [len(own) for own in bySize.values()])
 	if not len(positions):
@@ -143,6 +147,24 @@ def _latticePoints(predicate, grid, n):
 		raise ValueError(f'fill: no point of the lattice with spacing {grid.cellSize / n} m{plane} is inside the predicate, whose box reaches '
 		                 f'from {_text(predicate.aabb()[0])} to {_text(predicate.aabb()[1])}; is the region smaller than that, or does it miss the plane?')
 	return positions, sizes
+
+
+def _room():
+	"""Memory that is free [bytes]; inf where the system does not tell."""
+	try:
+		with open('/proc/meminfo', encoding='ascii') as file:
+			return 1024 * next(int(line.split()[1]) for line in file if line.startswith('MemAvailable'))
+	except (OSError, StopIteration, ValueError):
+		return math.inf
+
+
+def _requireRoom(count, room, grid, n):
+	"""Before bodies are made that memory has no room for."""
+	if count * _bytesOfBody <= room * processes.count: return
+	raise ValueError(
+	        f'fill: cellSize = {grid.cellSize:g} m with pointsPerCell = {n} makes {count:.3g} or more material points, which need {count * _bytesOfBody / 2**30:.3g} GiB of memory before the first step, and '
+	        f'{room / 2**30:.3g} GiB are free: take larger cells, or a smaller region'
+	)
 
 
 def _ofLeaves(points, grid, n):

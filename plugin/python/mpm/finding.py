@@ -8,8 +8,9 @@ from .scripts import scripts
 
 # Words of other programs and trades, by what the examples call it
 others = {
-        'cpt': 'cone', 'cptu': 'cone', 'dam': 'drawdown', 'debris': 'run-out', 'dem': 'grains', 'excavation': 'wall', 'fos': 'safety', 'geotextile': 'embankment', 'landslide': 'slope', 'lining': 'tunnel', 'phi-c': 'safety',
-        'retaining': 'wall', 'seismic': 'earthquake', 'silo': 'grains', 'srf': 'safety', 'stl': 'mesh', 'surcharge': 'pressure'
+        'buoyancy': 'water', 'cpt': 'cone', 'cptu': 'cone', 'dam': 'drawdown', 'debris': 'run-out', 'dem': 'grains', 'dtm': 'terrain', 'esri': 'terrain', 'excavation': 'wall', 'fos': 'safety', 'geotextile': 'embankment',
+        'groundwater': 'seepage', 'landslide': 'slope', 'lining': 'tunnel', 'phi-c': 'safety', 'pipe': 'tunnel', 'pipeline': 'tunnel', 'retaining': 'wall', 'seismic': 'earthquake', 'silo': 'grains', 'spectrum': 'earthquake',
+        'srf': 'safety', 'stl': 'mesh', 'surcharge': 'pressure', 'umat': 'hypoplastic', 'uplift': 'anchor', 'usermat': 'hypoplastic'
 }
 
 

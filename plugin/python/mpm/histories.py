@@ -8,7 +8,7 @@ from .analysis import noPoints, solverOf
 from .data import fields
 from .fields import components, labelled
 from .files import replacing
-from .messages import brief, isNumber, pathOf
+from .messages import brief, isNumber, pathOf, place
 from .naming import didYouMean
 from .processes import byFirst
 from .spectra import frequenciesOf, transform, warnOfMotionLeft
@@ -23,7 +23,7 @@ class histories:
 	of the call. Points move: positions only choose them. ``O.save`` keeps what is recorded, and of what, not the values: save them to a file. A loaded scene goes on with
 	``mpm.histories.loaded(label)``, from the state that was saved.
 
-	:param at: list or array of ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point of the engine
+	:param at: list or array of ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point of the engine, at most the size of a cell away
 	:param record: columns of :func:`arrays`, or ``displacement``, ``strain``, ``meanStress``, ``sqrt2J2``, ``totalStress``
 	:param every: iterations from one value to the next, >= 1, beginning with the first
 	:param label: name, by which a loaded scene finds it
@@ -42,7 +42,7 @@ class histories:
 		if not len(columns['id']): raise ValueError(noPoints('histories', self.solver))
 		for name in self.record:
 			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known{didYouMean(name, columns) or ';'} there are {', '.join(columns)}")
-		self.ids = _chosen(at, columns)
+		self.ids = _chosen(at, columns, self.solver.grid)
 		self._begin(columns)
 		scene = wrapper.Omega()
 		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, number={_solvers().index(self.solver)})"
@@ -236,7 +236,7 @@ def _requireArguments(record, every, label):
 	if not label.isidentifier(): raise ValueError(f'histories: label = {brief(label)} is not admitted: expected letters, digits and _')
 
 
-def _chosen(at, columns):
+def _chosen(at, columns, grid):
 	"""Ids of the points that are meant."""
 	try:
 		values = np.asarray(at, dtype=float)
@@ -247,11 +247,20 @@ def _chosen(at, columns):
 	isOne = isinstance(at, (tuple, Vector3)) or np.asarray(at).dtype.kind == 'f'
 	if isOne and values.shape == (3, ):
 		raise ValueError(f'histories: at = {brief(at)} may be a position or three ids: a position needs brackets, as in at=[{brief(at)}], and ids are a list of integers')
-	if values.ndim == 2: return columns['id'][[int(((columns['pos'] - x)**2).sum(1).argmin()) for x in values]]
+	if values.ndim == 2: return columns['id'][[_nearest(x, columns['pos'], grid) for x in values]]
 	ids = np.atleast_1d(values).astype(int)
 	missing = [x for x, i in zip(np.atleast_1d(values), ids) if x != i or i not in columns['id']]
 	if missing: raise ValueError(f'histories: at has {missing[0]:g}, which is no id of a material point; a position needs brackets, as in at=[(0, 1, 0)]')
 	return ids
+
+
+def _nearest(x, positions, grid):
+	"""Row of the material point nearest to a position; ValueError if there is none within a cell. In the plane z has no say."""
+	distances = np.linalg.norm((positions - x)[:, :grid.dim], axis=1)
+	row = int(distances.argmin())
+	if distances[row] > grid.cellSize * grid.dim**0.5:
+		raise ValueError(f'histories: at has {place(x)}, and the nearest material point, at {place(positions[row])}, is {distances[row]:.3g} m away, more than a cell (cellSize = {grid.cellSize:g} m): give a position in the soil')
+	return row
 
 
 def readHistory(fileName):

@@ -23,24 +23,29 @@ class record:
 	In order: to SI units; *baseline*; *filter*; *step*; integration by the trapezoidal rule, of velocities as MpmBaseMotion integrates them. Velocity
 	begins and ends with 0, unless *baseline* and *filter* are both None.
 
-	:param file: PEER file (AT2, with NPTS and DT in its heading), or text or CSV of two columns, time [s] and value; or pairs (time, value)
-	:param unit: ``'g'`` (9.80665 m/s2), ``'m/s2'`` or ``'cm/s2'`` (gal), of velocities ``'m/s'`` or ``'cm/s'``; only PEER files tell it themselves
+	``r.title`` is what the header of a network's file says of event, station and direction, and ``r.isCorrected`` whether that says that the baseline is corrected (None: it says nothing).
+
+	:param file: PEER file (AT2, with NPTS and DT in its heading), a file of ESM (DYNA), K-NET or KiK-net, COSMOS V2, CSMIP V2 (CGS) or SMC (USGS), or text or CSV of two columns, time [s] and value; or pairs (time, value)
+	:param unit: ``'g'`` (9.80665 m/s2), ``'m/s2'`` or ``'cm/s2'`` (gal), of velocities ``'m/s'`` or ``'cm/s'``; files of PEER and of networks tell it themselves
 	:param quantity: ``'acceleration'``, or ``'velocity'``, which is differentiated first
 	:param baseline: polynomial that is taken off the acceleration: ``'constant'``, ``'linear'`` (default), ``'quadratic'`` or None. Of those after which the ground is at rest at the end, the one that leaves the least velocity
 	:param filter: (low, high) corner frequencies [Hz], 0 <= low < high, at most half of the samples' rate; None: no filter. Butterworth's, of 2nd order below and of 4th above, forwards and backwards, without shift of phase. A *low* > 0 takes permanent displacement away, and makes the motion longer at both ends, until velocity and displacement are below 0.01 and 0.5 % of their largest values: the first sample of the file is then ``r.before`` [s] behind the beginning
 	:param step: step of the result [s]; None: that of the file. Longer than that of the file it needs a filter with high <= 0.4 / step
 	:param scale: factor on all values [-], finite and not 0
 	:param isSure: take values that look like another quantity or unit
+	:param channel: number of the channel in a file of COSMOS or CSMIP that has several, as its header counts them
 	:raises TypeError: *file* is neither path nor pairs.
 	:raises ValueError: the unit is not told; lines that cannot be read, values that are not finite, unequal steps, next to no samples; a parameter that is not admitted; values that are more likely another quantity: an acceleration handed in as a velocity, or an unlikely unit.
 	:raises OSError: the file cannot be read.
 	"""
 
-	def __init__(self, file, unit=None, quantity='acceleration', baseline='linear', filter=None, step=None, scale=1, isSure=False):
+	def __init__(self, file, unit=None, quantity='acceleration', baseline='linear', filter=None, step=None, scale=1, isSure=False, channel=None):
 		_requireOptions(quantity, baseline, scale)
-		begin, self.step, values, self.name, self.unit = read(file, quantity, unit)
+		source = read(file, quantity, unit, channel)
+		self.step, values, self.name, self.unit, self.title, self.isCorrected = source.step, source.values, source.name, source.unit, source.title, source.isCorrected
 		low, high = _corners(filter, self.step)
 		_requireStep(step, self.step, high)
+		if self.isCorrected is False and baseline is None and not low: self._ask('its header says that its baseline is not corrected, and baseline = None leaves its offset in', isSure, '', " baseline='constant' or a filter takes it off")
 		values = values * scale
 		if quantity == 'velocity':
 			self._ask(shaking.doubtOfVelocity(values, self.step), isSure, "quantity = 'velocity', but ", " Is it an acceleration? Then quantity='acceleration' with its unit integrates it")
@@ -53,7 +58,7 @@ class record:
 		if step is not None: values, self.step = self._resampled(values, step), float(step)
 		if baseline is not None or low: values = shaking.withoutDrift(values, self.step, 0)
 		self.acceleration = values
-		self.time = begin + self.step * np.arange(len(values))
+		self.time = source.begin + self.step * np.arange(len(values))
 		self.velocity = shaking.integral(values, self.step)
 		self.displacement = shaking.integral(self.velocity, self.step)
 		self._ask(shaking.doubtOfAcceleration(self.velocity, self.displacement), isSure, '', ' Look at unit, quantity, baseline and filter')

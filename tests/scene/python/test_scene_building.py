@@ -378,7 +378,7 @@ def test_scripts_are_found_by_words(yade):
 	run = yade('''
 import json
 from yade import mpm
-found = {words: mpm.examples(words) for words in ('footing', 'MpmTraction', 'slope water', 'CPT', 'dams', 'fooling', '')}
+found = {words: mpm.examples(words) for words in ('footing', 'MpmTraction', 'slope water', 'CPT', 'dams', 'fooling', 'pipe', 'ESRI', 'liquefaction', 'groundwater', 'spectrum', 'uplift', 'umat', '')}
 try: mpm.examples(3)
 except TypeError as error: found['error'] = str(error)
 print(json.dumps(found))
@@ -387,6 +387,8 @@ print(json.dumps(found))
 	assert found['footing'][:3] == ['examples/tasks/deep_footing.py', 'examples/tasks/round_footing.py', 'examples/tasks/square_footing.py'] and 'examples/footing3d/footing3d.py' in found['footing']
 	assert 'examples/tasks/tunnel.py' in found['MpmTraction'] and 'examples/water/water.py' in found['slope water'] and 'examples/tasks/earthquake.py' not in found['slope water']
 	assert 'examples/penetration/deep.py' in found['CPT'] and 'examples/tasks/drawdown.py' in found['dams']
+	assert 'examples/earthquake/liquefaction.py' in found['liquefaction'] and 'examples/laboratory/hypoplasticity.py' in found['umat'] and 'examples/water/dam.py' in found['groundwater']
+	assert all(found[words] for words in ('pipe', 'ESRI', 'spectrum', 'uplift'))
 	assert not found['fooling'] and "No script is about 'fooling'" in run.stdout and 'footing' in run.stdout.partition('fooling')[2].splitlines()[0]
 	assert len(found['']) > 40 and all((root / path).exists() for path in found['']) and "words = 3 must be a text" in found['error']
 	assert 'scripts/run examples/tasks/tunnel.py' in run.stdout

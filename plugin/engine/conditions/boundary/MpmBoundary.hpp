@@ -92,6 +92,7 @@ public:
 	bool                mayHold(int axis, Real place, Real near) const override;
 	string              idleness(const string& name, bool reaches) const override;
 	void                tell(Rows&, const Analysis&, const Listed&) const override;
+	string              firstDoubt(const string& name) const override { return motion ? motion->doubt(name) : ""; }
 	const char*         picture() const override { return "walls"; }
 	void                draw(Picture&, const Analysis&, const Listed&) const override;
 

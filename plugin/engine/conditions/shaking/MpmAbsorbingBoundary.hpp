@@ -54,6 +54,7 @@ public:
 	void   tell(Rows&, const Analysis&, const Listed&) const override;
 	string needsOneBody(const string&) const override { return "an absorbing boundary"; }
 	string needsUntiedNodes(const string& name) const override { return name; }
+	string firstDoubt(const string& name) const override { return motion ? motion->doubt(name) : ""; }
 };
 
 } // namespace yade

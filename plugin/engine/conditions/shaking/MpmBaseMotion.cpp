@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/shaking/MpmBaseMotion.hpp"
+#include "core/base/sentence.hpp"
 #include "yade_api/registration.hpp"
 #include <algorithm>
 
@@ -23,6 +24,30 @@ Vector3r MpmBaseMotion::displacementBetween(Real begin, Real end) const
 		from = to;
 	}
 	return sum * direction;
+}
+
+// As mpm.record asks of velocities: an acceleration changes much faster, and drifts when it is taken for a velocity. Pulses
+// and other short histories are not judged.
+string MpmBaseMotion::doubt(const string& name) const
+{
+	constexpr size_t fewest   = 100;
+	constexpr Real   shortest = 5; // [s]
+	if (history.size() < fewest || history.back().first - history.front().first < shortest) return "";
+	Real largest = 0, rate = 0, way = 0, farthest = 0;
+	for (size_t k = 1; k < history.size(); ++k) {
+		const auto& [t0, v0] = history[k - 1];
+		const auto& [t1, v1] = history[k];
+		rate                 = std::max(rate, std::abs(v1 - v0) / (t1 - t0));
+		way += (t1 - t0) * (v0 + v1) / 2;
+		largest  = std::max({ largest, std::abs(v0), std::abs(v1) });
+		farthest = std::max(farthest, std::abs(way));
+	}
+	const Real size    = direction.norm();
+	const bool isDrift = std::abs(way) > 0.3 * farthest;
+	if (largest == 0 || (rate <= 40 * largest && rate * size <= 50 && !(isDrift && rate > 10 * largest))) return "";
+	return gimpm::sentence(
+	        name, ".motion.history is of velocities [m/s], and these would change by up to ", rate * size, " m/s2, ", rate / largest,
+	        " 1/s times the largest (velocities of earthquakes: 4 to 30): is it a record of accelerations? mpm.record(...).motion() integrates one.");
 }
 
 void MpmBaseMotion::requireInDimension(int dim, const string& name) const

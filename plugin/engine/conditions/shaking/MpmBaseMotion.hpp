@@ -30,6 +30,9 @@ public:
 	Vector3r velocityAt(Real time) const { return speedAt(time) * direction; }
 	Vector3r displacementBetween(Real begin, Real end) const;
 
+	// A sentence if the history is most likely one of accelerations; `name`: what has it.
+	string doubt(const string& name) const;
+
 	// std::invalid_argument, in the name of what has it, for a direction that a grid in the plane does not have.
 	void requireInDimension(int dim, const string& name) const;
 

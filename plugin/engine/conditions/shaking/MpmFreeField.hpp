@@ -69,6 +69,7 @@ public:
 	const Serializable* ownSurface() const override { return surface.get(); }
 	vector<Vector3r>    places() const override { return surface->vertices; }
 	void                tell(Rows&, const Analysis&, const Listed&) const override;
+	string              firstDoubt(const string& name) const override { return motion ? motion->doubt(name) : ""; }
 
 private:
 	// In free_fields.cpp, which is compiled for speed: they are asked in each step.

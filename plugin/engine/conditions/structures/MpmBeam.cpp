@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/structures/MpmBeam.hpp"
+#include "core/base/sentence.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/structures/beams.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
@@ -52,6 +53,26 @@ void MpmBeam::requireFitting(const Analysis& analysis, const string& name) const
 		        + " is that of a shell of revolution: a beam in the plane has none. Without MpmGrid.axisymmetric leave it 0.");
 	if (weight > 0 && analysis.gravity.isZero(0))
 		throw std::invalid_argument(name + ".weight = " + textOf(weight) + " acts along MpmImplicitEngine.gravity, which is zero.");
+}
+
+std::optional<std::pair<Vector3r, Vector3r>> MpmBeam::extent() const
+{
+	const auto places = placesOf(line);
+	Vector3r   low = places.front(), high = low;
+	for (const Vector3r& x : places) {
+		low  = low.cwiseMin(x);
+		high = high.cwiseMax(x);
+	}
+	return std::pair { low, high };
+}
+
+string MpmBeam::idleness(const string& name, bool reaches) const
+{
+	if (reaches) return "";
+	const auto [low, high] = *extent();
+	return gimpm::sentence(
+	        " ", name, ", an MpmBeam from (", low.head<2>().transpose(), ") to (", high.head<2>().transpose(),
+	        "), is in the air: no material point is beside it.");
 }
 
 // Its line is a meridian, on the one side of the axis.

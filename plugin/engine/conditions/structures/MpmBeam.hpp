@@ -115,13 +115,15 @@ public:
 
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 
-	Real        end(const Analysis&) const override;
-	void        requireFitting(const Analysis&, const string& name) const override;
-	string      needsOneBody(const string&) const override { return "a beam"; }
-	void        requireShell(const string& name) const;
-	void        tell(Rows&, const Analysis&, const Listed&) const override;
-	const char* picture() const override { return "loads"; }
-	void        draw(Picture&, const Analysis&, const Listed&) const override;
+	Real                                         end(const Analysis&) const override;
+	void                                         requireFitting(const Analysis&, const string& name) const override;
+	string                                       needsOneBody(const string&) const override { return "a beam"; }
+	void                                         requireShell(const string& name) const;
+	void                                         tell(Rows&, const Analysis&, const Listed&) const override;
+	std::optional<std::pair<Vector3r, Vector3r>> extent() const override;
+	string                                       idleness(const string& name, bool reaches) const override;
+	const char*                                  picture() const override { return "loads"; }
+	void                                         draw(Picture&, const Analysis&, const Listed&) const override;
 
 	// x, y and rotation.
 	static std::array<bool, 3> fixed(const string& letters);
