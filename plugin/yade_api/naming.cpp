@@ -104,7 +104,8 @@ vector<string> namesIn(PyTypeObject* type)
 }
 
 namespace {
-	constexpr const char* sentenceOfCopy = "_sentenceOfCopy";
+	constexpr const char* sentenceOfCopy      = "_sentenceOfCopy";
+	constexpr const char* sentenceOfEmptiness = "_sentenceOfEmptiness";
 
 	[[noreturn]] void refuseChange(const py::object& self, PyObject* exception)
 	{
@@ -116,6 +117,13 @@ namespace {
 	{
 		if (PyObject_HasAttrString(reinterpret_cast<PyObject*>(&PyList_Type), name.c_str())) refuseChange(self, PyExc_AttributeError);
 		raisePython(PyExc_AttributeError, "'tuple' object has no attribute '" + name + "'");
+	}
+	// A result is empty until a step has made it.
+	py::object item(const py::object& self, const py::object& index)
+	{
+		if (py::len(self) == 0 && PyIndex_Check(index.ptr()) && self.attr("__dict__").contains(sentenceOfEmptiness))
+			raisePython(PyExc_IndexError, py::extract<string>(self.attr("__dict__")[sentenceOfEmptiness]));
+		return py::object(py::handle<>(PyTuple_Type.tp_as_mapping->mp_subscript(self.ptr(), index.ptr())));
 	}
 	void       setItem(const py::object& self, const py::object&, const py::object&) { refuseChange(self, PyExc_TypeError); }
 	void       removeItem(const py::object& self, const py::object&) { refuseChange(self, PyExc_TypeError); }
@@ -135,6 +143,7 @@ namespace {
 		const auto object = [](PyTypeObject& type) { return py::object(py::handle<>(py::borrowed(reinterpret_cast<PyObject*>(&type)))); };
 		py::dict   members;
 		members["__getattr__"]   = py::make_function(&missing);
+		members["__getitem__"]   = py::make_function(&item);
 		members["__setitem__"]   = py::make_function(&setItem);
 		members["__delitem__"]   = py::make_function(&removeItem);
 		members["__add__"]       = py::make_function(&sum);
@@ -150,6 +159,9 @@ py::object copyOfAttribute(const py::tuple& items, const string& attribute, bool
 	const string             name         = attribute.substr(attribute.find('.') + 1);
 	copy.attr("__dict__")[sentenceOfCopy] = attribute + " can be read only as a copy, a tuple, which is not the attribute itself: "
 	        + (isReadonly ? "it is a result, which cannot be changed." : "assign a new one, as in x." + name + " = [*x." + name + ", another].");
+	if (isReadonly)
+		copy.attr("__dict__")[sentenceOfEmptiness]
+		        = attribute + " is empty: it is a result, which the first step makes; make one before it is read, as by O.run(1, wait=True).";
 	return copy;
 }
 

@@ -95,7 +95,7 @@ from .records import record
 from .safety import strengthReduction
 from .darcy import seepage
 from .solids import solid
-from .naming import didYouMean as _didYouMean, telling as _telling
+from .naming import didYouMean as _didYouMean, telling as _telling, tellShortNames as _tellShortNames
 from .surfaces import surface
 from .tables import export, frame
 from .terrains import facets, terrain
@@ -110,6 +110,8 @@ for _name in __all__:
 	_thing.__module__ = __name__  # where it is found by that name
 for _name in stages.__all__:
 	setattr(stages, _name, _telling(getattr(stages, _name)))
+
+_tellShortNames([name for name in dir(_wrapper) if name.startswith('Mpm')])
 
 
 def __getattr__(name):

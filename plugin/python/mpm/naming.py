@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Names that a script gives: of arguments, and labels of materials."""
+import builtins
 import functools
 import inspect
 
@@ -12,6 +13,24 @@ from .messages import brief
 def didYouMean(name, known):
 	"""A question that follows a message, with the names that are most like another one; empty if none is."""
 	return engine.didYouMean(str(name), [str(one) for one in known])
+
+
+class ShortName:
+	"""Name of a class without its ending, in the builtins of Python: it tells whoever calls it which class is meant."""
+
+	def __init__(self, name, meant):
+		self._text = f"name {name!r} is not defined; did you mean {meant!r}?"
+
+	def __call__(self, *arguments, **keywords):
+		raise NameError(self._text)
+
+
+def tellShortNames(classes):
+	"""Make short names such as MpmVonMises tell that MpmVonMisesMat is meant."""
+	for name in classes:
+		for ending in 'Mat', 'Engine':
+			short = name.removesuffix(ending)
+			if short != name and short not in classes and len(short) > len('Mpm') and not hasattr(builtins, short): setattr(builtins, short, ShortName(short, name))
 
 
 def telling(thing):

@@ -178,3 +178,22 @@ while not begun: time.sleep(0.01)
 ''')
 	assert 'the script ends while the simulation runs' in run.stderr and 'O.run(n, wait=True)' in run.stderr
 	assert run.stderr.count('the step has ended') == 1
+
+
+def test_what_is_left_at_the_end_of_the_script_is_told(yade):
+	"""Films that are not finished, and stages that no step has followed; those that are finished are left in peace."""
+	begun, ended = (yade(setting + script).stderr for script in ('''
+scene()
+O.step()
+film = mpm.view('film.html', every=1)
+mpm.stages.excavate(mpm.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]), steps=2)
+''', '''
+scene()
+O.step()
+film = mpm.view('film.html', every=1)
+mpm.stages.excavate(mpm.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]), steps=2)
+O.run(2, wait=True)
+film.finish()
+'''))
+	assert "'film.html' is not written, and its 1 pictures are lost" in begun and 'mpm.stages.excavate(..., steps=2) was not followed by a step' in begun, begun
+	assert 'yade.mpm:' not in ended, ended

@@ -190,12 +190,87 @@ say('end')
 		assert 'WARNING' not in said[name], said[name]
 		for title, words in (name + ' in kPa', ('young = ', 'meant in kPa')), (name + ' in t/m3', ('density = ', 'meant in t/m3')):
 			assert said[title].count('WARNING') == 1 and all(word in said[title] for word in ("'soil'", *words)), said[title]
-	for title in 'weightless', 'without units', 'compression':
+	assert said['weightless'].count('WARNING') == said['weightless'].count('nothing acts on the material points') == 1, said['weightless']
+	for title in 'without units', 'compression':
 		assert 'WARNING' not in said[title], said[title]
 	assert said['later'].count('WARNING') - said['later'].count('(ghostShare)') == said['later'].count('t/m3') == 1, said['later'] # the stabilisation resists, too, where nearly all weight goes at once, and says so
 	assert said['gravity turned'].count('WARNING') == said['gravity turned'].count('gravity acts along +y') == 2, said['gravity turned']
 	assert said['tension'].count('the initial stress along gravity is tension, 40000 Pa') == 1, said['tension']
 	assert said['sunk'].count('m, is more than the size of the body, 4 m') == 1, said['sunk']
+
+
+# script, and what the first step says of it once; empty: nothing
+doubted = [
+        ('scene(gravity=(0, 0, 0)); O.step(); O.step()', 'nothing acts on the material points'),
+        ('scene(gravity=(0, 0, 0), boundaries=[base, MpmBoundary(min=(-inf, 4, -inf), fix="y", displacement=(0, -0.01, 0))]); O.step()', ''),
+        ('scene(gravity=(0, 0, 0)); mpm.assign(force=np.tile((0, -10, 0), (64, 1))); O.step()', ''),
+        ('scene(gravity=(0, 0, 0)); mpm.assign(stress=np.tile(np.diag([0, -10., 0]), (64, 1, 1))); O.step()', ''),
+        ('moving(gravity=(0, 0, 0)); O.step()', 'nothing acts on the material points'),
+        ('moving(gravity=(0, 0, 0)); mpm.assign(velocity=np.tile((1e-3, 0, 0), (64, 1))); O.step()', ''),
+        ('scene(boundaries=[MpmBoundary(fix="xy")]); O.step(); O.step()', 'all nodes that material points touch are held'),
+        ('scene(boundaries=[MpmBoundary(fix="xy", displacement=(0.01, 0, 0))]); O.step()', ''),
+        ('moving(); O.dt = 1e-8; O.step(); O.step()', "YADE's default, in which the fastest wave"),
+        ('moving(scheme="explicit"); O.dt = 1e-8; O.step()', "YADE's default, in which the fastest wave"),
+        ('moving(); O.dt = 1e-3; O.step()', ''),
+        ('made(MpmElasticMat(young=1e6, poisson=0.3, label="soil")); O.step(); O.step()', "the density of material 'soil' was not given"),
+        ('made(MpmElasticMat(young=1e6, poisson=0.3, density=1000, label="soil")); O.step()', ''),
+        ('m = MpmElasticMat(young=1e6, poisson=0.3, label="soil"); m.density = 1900; made(m); O.step()', ''),
+        ('made(MpmElasticMat(young=1e6, poisson=0.3, density=1000, label="soil")); O.save("a.xml"); O.load("a.xml"); O.step()', ''),
+        ('scene(); rock((2, 4.5, 0)); O.step(); O.step()', 'has no contacts, so that soil passes through it'),
+        ('scene(contacts=[MpmContact(friction=0.3)]); rock((2, 4.5, 0)); O.step()', ''),
+        ('scene(); rock((2, 40, 0)); O.step()', ''),
+        ('scene(loads=[beam(20)]); O.step(); O.step()', 'loads[0], an MpmBeam from (20 3) to (20 1), is in the air'),
+        ('scene(loads=[beam(2)]); O.step()', ''),
+        ('scene(); mpm.assign(velocity=np.tile((1e-3, 0, 0), (64, 1))); O.step(); O.step()', 'does not use, as its steps have no inertia'),
+        ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil")); O.step(); O.step()', 'poisson = 0.49'),
+        ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil"), fBar=True); O.step()', ''),
+        ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil"), lambda: box((0, 0), (1, 4))); O.step()', ''),
+        ('moving(boundaries=[based(shaken)]); O.step(); O.step()', 'boundaries[0].motion.history is of velocities'),
+        ('moving(boundaries=[based(np.cumsum(shaken) * 0.01 - 0.01 * np.cumsum(np.full(1001, shaken.mean())))]); O.step()', ''),
+        ('deformed(); O.step(); mpm.stages.place(box((0, 5), (3, 6.2), MpmGrid(cellSize=0.6))); O.step(); O.step()', 'Was mpm.fill given another MpmGrid than the engine?'),
+        ('deformed(); O.step(); mpm.stages.place(box((0, 5), (3, 6))); O.step()', ''),
+]
+
+
+def test_the_first_step_doubts_what_is_seldom_meant(yade):
+	run = yade(setting + '''
+def made(material, bodies=None, **changes):
+	solver = scene(bodies, **changes)
+	O.reset()
+	O.materials.append(material)
+	O.bodies.append(bodies() if bodies else box((0, 0), (4, 4)))
+	O.engines, O.dt = [solver], 1 / 4
+
+def moving(**changes):
+	static = scene()
+	O.engines = [MpmDynamicEngine(**(dict(grid=static.grid, gravity=(0, -10, 0), boundaries=[base], verbosity=0) | changes))]
+	O.dt = 1e-3
+
+def rock(place):
+	from yade import utils
+	O.materials.append(FrictMat(young=1e7, poisson=0.3, density=2000, label='rock'))
+	O.bodies.append(utils.sphere(place, 0.5, material='rock', fixed=True))
+
+def beam(x):
+	return MpmBeam(line=[(x, 3), (x, 1)], axialStiffness=1e7, bendingStiffness=1e6)
+
+shaken = np.random.default_rng(1).standard_normal(1001) * np.sin(np.pi * np.arange(1001) / 1000)**2
+def based(values):
+	return MpmBoundary(max=(inf, 0, inf), fix='xy', motion=MpmBaseMotion(history=[(0.01 * i, float(v)) for i, v in enumerate(values)]))
+
+''' + '\n'.join(f'say({i})\n{script}' for i, (script, _) in enumerate(doubted)))
+	said = paragraphs(run)
+	for i, (script, words) in enumerate(doubted):
+		own = [line for line in said[str(i)].splitlines() if 'WARNING' in line and '(ghostShare)' not in line and 'more than that' not in line and 'loadCurve has' not in line]
+		assert len(own) == (words != '') and words in ''.join(own), (script, said[str(i)])
+
+
+def test_what_advise_says_is_what_the_first_step_would(yade):
+	assert 'settings: nothing acts' in yade(setting + '''
+solver = scene(gravity=(0, 0, 0))
+mpm.advise()
+O.step()
+''').stdout
 
 
 def test_sound_neighbours_and_deformed_scenes_are_left_in_peace(yade):
