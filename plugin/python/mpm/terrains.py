@@ -267,7 +267,7 @@ def _read(fileName, who):
 	for name in sizes:
 		if not (math.isfinite(header[name]) and header[name] > 0): raise refuse(f'{name} = {header[name]:g} must be > 0 and finite')
 	widths = [len(line.split()) for line in lines]
-	areWrapped = len(set(widths[:-1])) == 1 and widths[-1] <= widths[0] and len(lines) != shape[0] and (len(lines), widths[0]) != shape[::-1]  # at a width of their own; not a height lost in one row, nor nrows and ncols exchanged
+	areWrapped = len(set(widths[:-1])) <= 1 and widths[-1] <= widths[0] and len(lines) != shape[0] and (len(lines), widths[0]) != shape[::-1]  # at a width of their own; not a height lost in one row, nor nrows and ncols exchanged
 	ends = np.cumsum(widths)
 	cut = np.setdiff1d(shape[1] * np.arange(1, shape[0] + 1), ends)
 	if cut.size and not areWrapped:

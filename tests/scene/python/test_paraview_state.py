@@ -106,6 +106,7 @@ import json
 from scenes import *
 found = []
 for name in 'c & phi-', 'phi<30-', 'a "b"-':
+	O.reset()
 	column(8)
 	O.engines = O.engines + [MpmVtkRecorder(fileName=name)]
 	O.run(1, wait=True)
