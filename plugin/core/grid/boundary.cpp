@@ -6,11 +6,12 @@ namespace gimpm {
 
 template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max)
 {
-	constexpr double tolerance = 1e-9, limit = Grid<Dim>::endOfKeys;
+	constexpr double limit = Grid<Dim>::endOfKeys;
 	HeldBox          box;
 	for (int a = 0; a < Dim; ++a) {
-		box.lower[a] = int(std::clamp(std::ceil((min[a] - grid.origin[a]) / grid.cellSize - tolerance), -limit, limit));
-		box.upper[a] = int(std::clamp(std::floor((max[a] - grid.origin[a]) / grid.cellSize + tolerance), -limit, limit));
+		const double low = (min[a] - grid.origin[a]) / grid.cellSize, high = (max[a] - grid.origin[a]) / grid.cellSize;
+		box.lower[a] = int(std::clamp(std::ceil(low - grid.onLine(min[a], a)), -limit, limit));
+		box.upper[a] = int(std::clamp(std::floor(high + grid.onLine(max[a], a)), -limit, limit));
 		if (grid.period[a] == 0) continue;
 		box.lower[a] = std::max(box.lower[a], 0);
 		box.upper[a] = std::min(box.upper[a], grid.period[a]);

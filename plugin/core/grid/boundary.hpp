@@ -15,7 +15,8 @@ template <int Dim> struct HeldBox {
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
 
-	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted.
+	/// The nodes of a box in space; a coordinate on a node within Grid::onLine() holds it. Infinite limits are
+	/// admitted.
 	/// Along a periodic axis the box is that between the two sides, both included.
 	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
 

@@ -4,6 +4,7 @@
 #include "core/base/types.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -97,6 +98,14 @@ template <int Dim> struct Grid {
 		const double length = cellSize * period[axis];
 		return x + length * std::round((cellSize * node - x) / length);
 	}
+	/// Distance [cells] within which a coordinate lies on a line of the grid: 1e-9, and some round-off of the
+	/// coordinate and of the origin, which is more where these are large, as on a map. 0 of an infinite one.
+	double onLine(double x, int axis) const
+	{
+		constexpr double least = 1e-9, roundOff = 4 * std::numeric_limits<double>::epsilon();
+		return std::isfinite(x) ? least + roundOff * (std::abs(x) + std::abs(origin[axis])) / cellSize : 0;
+	}
+
 	/// Number of the nodes on the axis.
 	int      axisNode() const { return int(std::lround(-origin[0] / cellSize)); }
 	Vec<Dim> nodePosition(const Index<Dim>& i) const { return origin + cellSize * i.template cast<double>(); }

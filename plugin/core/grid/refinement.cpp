@@ -13,12 +13,17 @@ template <int Dim> Refinement<Dim>::Refinement(const std::vector<RefinedBox<Dim>
 {
 	for (const auto& box : boxes)
 		largest_ = std::max(largest_, box.halvings);
-	const double   smallest = grid.cellSize / (1 << largest_), end = Grid<Dim>::endOfKeys;
-	const Vec<Dim> tolerance = Vec<Dim>::Constant(faceTolerance * (1 << largest_));
+	const double smallest = grid.cellSize / (1 << largest_), end = Grid<Dim>::endOfKeys;
+	const auto   onLine = [&](const Vec<Dim>& x) {
+                Vec<Dim> of;
+                for (int a = 0; a < Dim; ++a)
+                        of[a] = grid.onLine(x[a], a) * (1 << largest_);
+                return of;
+	};
 	for (const auto& box : boxes) {
 		const int      level = largest_ - box.halvings + 1; // of the cells that are halved last
 		const auto     cells = [&](const Vec<Dim>& x) { return ((x - grid.origin) / smallest).cwiseMax(-end).cwiseMin(end).eval(); };
-		const Vec<Dim> low = cells(box.min) + tolerance, high = cells(box.max) - tolerance;
+		const Vec<Dim> low = cells(box.min) + onLine(box.min), high = cells(box.max) - onLine(box.max);
 		Block          block;
 		for (int a = 0; a < Dim; ++a) {
 			block.lower[a] = cellAt(low[a], level);

@@ -27,7 +27,7 @@ template <int Dim> struct CutPatches {
 	StepPoints<Dim>   points;
 	std::vector<Node> nodes;
 
-	explicit CutPatches(const StepSystem<Dim>& system) : front(int(system.basis.nodes.size()))
+	explicit CutPatches(const StepSystem<Dim>& system) : points(system.points.withoutPoints()), front(int(system.basis.nodes.size()))
 	{
 		basis.colours.resize(system.basis.colours.size());
 		for (std::size_t c = 0; c < system.basis.colours.size(); ++c)
@@ -153,8 +153,9 @@ void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim
 	const CutPatches<Dim> cut(system);
 	Eigen::VectorXd       displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
 	if (!cut.nodes.empty()) {
-		displacement.head(d.size()) = system.model.atMiddle ? Eigen::VectorXd(d / 2) : d;
-		addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
+		const double part           = system.model.atMiddle ? 0.5 : 1; // as InternalForceAtMiddle
+		displacement.head(d.size()) = part * d;
+		addInternalForce<Dim>(cut.basis, cut.basis.colours, cut.points, system.model.materials, displacement, { internal }, part);
 		addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
 	}
 	addForces(cut, system, Eigen::VectorXd(internal - external), report);

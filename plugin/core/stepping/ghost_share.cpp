@@ -7,7 +7,7 @@ namespace gimpm {
 
 template <int Dim> double ghostShare(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& force)
 {
-	if (system.hasInertia() || system.isCoupled()) return std::numeric_limits<double>::quiet_NaN();
+	if (system.hasInertia() || !system.map.isAlone()) return std::numeric_limits<double>::quiet_NaN();
 	if (system.model.ghost.factor == 0) return 0;
 	const Eigen::VectorXd ofGhost = system.ghostForce(d);
 	if (ofGhost.template lpNorm<Eigen::Infinity>() <= leastGhostForce * system.external.template lpNorm<Eigen::Infinity>()) return 0;

@@ -266,9 +266,25 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::sumOf(std::size_t first, std
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(nodalSize());
 	for (std::size_t i = first; i < first + count; ++i)
 		terms[i]->add(d, { force });
+	return completed(std::move(force));
+}
+
+/// Forces of tied nodes are given to their masters, and each process gets the rows of the others.
+template <int Dim> Eigen::VectorXd StepSystem<Dim>::completed(Eigen::VectorXd force) const
+{
 	constraints.template fold<Dim>(map, force);
 	completeForces(force);
 	return force;
+}
+
+/// Term::add() of a coupled term adds nothing: its forces come from addCoupled().
+template <int Dim> Eigen::VectorXd StepSystem<Dim>::otherForces(const Eigen::VectorXd& d) const
+{
+	const std::size_t first  = 1 + isStabilised_;
+	auto              forces = map.zeros(), sizes = forces;
+	for (const auto* term : coupled_)
+		term->addCoupled(state(d), { forces, sizes });
+	return sumOf(first, terms.size() - first, d) + completed(forces[0]);
 }
 
 template <int Dim> bool StepSystem<Dim>::isSymmetric() const

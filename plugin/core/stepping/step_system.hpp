@@ -72,7 +72,7 @@ template <int Dim> struct StepSystem {
 
 	/// Of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
 	Eigen::VectorXd ghostForce(const Eigen::VectorXd& d) const { return sumOf(1, isStabilised_, d); }
-	Eigen::VectorXd otherForces(const Eigen::VectorXd& d) const { return sumOf(1 + isStabilised_, terms.size() - 1 - isStabilised_, d); }
+	Eigen::VectorXd otherForces(const Eigen::VectorXd& d) const;
 
 	/// Forces from outside among the terms at these displacements [N].
 	double fromOutside(const Eigen::VectorXd& d) const;
@@ -126,6 +126,7 @@ private:
 	void                        holdNodes(const Load<Dim>&);
 	void                        holdField(int field, const FieldStart&);
 	void                        addCoupledBefore(Eigen::VectorXd& resistance) const;
+	Eigen::VectorXd             completed(Eigen::VectorXd force) const;
 	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const TermSum<Dim>&) const;
 	std::optional<PointFailure> addCoupled(
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const;

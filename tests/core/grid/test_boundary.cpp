@@ -17,6 +17,20 @@ namespace {
 		EXPECT_EQ(shifted.upper[0], 3);
 	}
 
+	/// A coordinate of a map, in which round-off is more than 1e-9 cells.
+	TEST(HeldBox, HoldsNodesFarAway)
+	{
+		for (const double place : { 5412000.1, 5412000.2, 5412000.3, 5412345.7 }) {
+			const auto box = held<2>(tenths, { place, 0 }, { place, 1 }, "x");
+			EXPECT_EQ(box.lower[0], std::lround(10 * place)) << place;
+			EXPECT_EQ(box.upper[0], std::lround(10 * place)) << place;
+			const Grid<2> corner { 0.1, { place, 0 } };
+			const auto    side = held<2>(corner, { place + 2.4, 0 }, { infinity, 1 }, "x");
+			EXPECT_EQ(side.lower[0], 24) << place;
+			EXPECT_TRUE((held<2>(corner, { place + 0.001, 0 }, { place + 0.099, 1 }, "x").empty())) << place;
+		}
+	}
+
 	TEST(HeldBox, HoldsNoNodeBetweenNodes)
 	{
 		EXPECT_TRUE((held<2>(tenths, { 0.31, 0 }, { 0.39, 1 }, "x").empty()));

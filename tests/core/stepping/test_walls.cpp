@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nothing lies behind a wall: a face whose nodes are all held along its normal.
+#include "core/materials/in_space.hpp"
+#include "core/materials/relaxing.hpp"
 #include "core/stepping/beyond_walls.hpp"
 #include "scenes.hpp"
 #include <set>
@@ -174,26 +176,26 @@ namespace {
 	template <class Dimension> using WallReactions = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(WallReactions, BothDimensions, DimensionName);
 
-	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind)
+	/// Soft soil on a rough base, along smooth walls, that a weight which acts obliquely shears away from one of
+	/// them; and a point load.
+	template <int Dim> void expectBalance(const Law& law)
 	{
-		// soft soil on a rough base, along smooth walls, that a weight which acts obliquely shears away from
-		// one of them; and a point load
-		constexpr int Dim = TypeParam::value;
-		Model<Dim>    model;
-		auto          cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
-		Vec<Dim>      base  = Vec<Dim>::Constant(infinity);
-		base[1]             = 0;
+		Model<Dim> model;
+		auto       cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
+		Vec<Dim>   base  = Vec<Dim>::Constant(infinity);
+		base[1]          = 0;
 		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0),
 			                          held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
 		if (Dim == 3) boxes.push_back(wallBelow<Dim>(model.grid, 2, 0));
 		model.boundary         = Boundary<Dim>(boxes);
-		model.materials        = { { Hencky(1e3, 0.3), 10 } };
+		model.materials        = { { law, 10 } };
 		model.newton.tolerance = 1e-10;
 		cloud.force.assign(cloud.size(), Vec<Dim>::Zero());
 		cloud.force.back()[1] = -20;
 		LinearSolver solver;
 		Load<Dim>    load;
-		load.gravity = 14 * Vec<Dim>::Unit(0) - 16 * Vec<Dim>::Unit(1);
+		load.gravity  = 14 * Vec<Dim>::Unit(0) - 16 * Vec<Dim>::Unit(1);
+		load.duration = 0.25;
 		StepReport report;
 		for (int i = 1; i <= 4; ++i) {
 			load.factor.value = i / 4.;
@@ -208,6 +210,15 @@ namespace {
 			EXPECT_LT(sum.norm(), 1e-9 * size);
 		}
 		EXPECT_GT(report.largestWallOverlap, 1e-3);
+	}
+
+	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind) { expectBalance<TypeParam::value>(Hencky(1e3, 0.3)); }
+
+	/// A law whose points are computed one by one, and whose stress depends on the duration of the step.
+	TYPED_TEST(WallReactions, BalanceTheLoadsOfViscousSoil)
+	{
+		const InSpace<VonMises> plastic(VonMises(1e3, 0.3, 100), 0.3);
+		expectBalance<TypeParam::value>(Relaxing<InSpace<VonMises>>(plastic, 0.5));
 	}
 
 	TEST(Wall, PointsAtItAndPointsAwayFromItShareTheNodesOnIt)

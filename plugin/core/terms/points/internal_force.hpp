@@ -26,6 +26,14 @@ template <int Dim> struct StepPoints {
 	bool hasFBar() const { return !centres.empty(); }
 	bool hasWater() const { return !water.empty(); }
 
+	/// No points, in the same step and of the same laws: for those that append() adds.
+	StepPoints withoutPoints() const
+	{
+		StepPoints none;
+		none.isSymmetric = isSymmetric, none.hasTensorLaws = hasTensorLaws, none.duration = duration;
+		return none;
+	}
+
 	/// Another point, as point i of these.
 	void append(const StepPoints& from, int i)
 	{

@@ -104,6 +104,51 @@ string MpmBoundary::idleness(const string& name, bool reaches) const
 	        body.empty() ? "" : " of body '" + body + "'", ".");
 }
 
+namespace {
+	// The lowest coordinate of soil along an axis, or along its opposite, that a box has beside it, in cells from
+	// the origin of the grid; infinite without soil.
+	Real edgeOfSoil(const MpmBoundary& box, const vector<MaterialPoint>& points, const MpmGrid& grid, int axis, int sign)
+	{
+		Real edge = std::numeric_limits<Real>::infinity();
+		for (const MaterialPoint& point : points) {
+			bool isBeside = true;
+			for (int a = 0; a < grid.dim; ++a)
+				isBeside = isBeside && (a == axis || (box.min[a] <= point.state->refPos[a] && point.state->refPos[a] <= box.max[a]));
+			if (isBeside) edge = std::min(edge, sign * (point.state->refPos[axis] - grid.origin[axis]) - point.shape->halfSize0[axis]);
+		}
+		return edge / grid.cellSize;
+	}
+
+	// A face of the box where the soil ends and no line of the grid is: its nodes hold the soil through cells that
+	// are filled in part.
+	string faceBetweenLines(const MpmBoundary& box, const vector<MaterialPoint>& points, const MpmGrid& grid, const string& name, int axis, int sign)
+	{
+		constexpr Real little = 1e-6; // cells
+		const Real     face = sign > 0 ? box.max[axis] : box.min[axis], place = sign * (face - grid.origin[axis]) / grid.cellSize;
+		const Real     line = std::floor(place + little);
+		if (!std::isfinite(face) || place - line <= little) return "";
+		const Real edge = edgeOfSoil(box, points, grid, axis, sign);
+		if (edge <= line + little || edge > place + little) return "";
+		return gimpm::sentence(
+		        name, sign > 0 ? ".max[" : ".min[", axis, "] = ", face,
+		        " m, where the soil ends, is on no line of the grid: the soil is held at the next one, ",
+		        grid.origin[axis] + sign * line * grid.cellSize, " m, ", edge - line,
+		        " cells away, through cells that are filled in part, and is too soft there. Let MpmGrid.origin and cellSize put a line on it, or give "
+		        "MpmBoundary(surface=...).");
+	}
+}
+
+std::map<string, string> MpmBoundary::warnings(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const
+{
+	if (surface || !analysis.grid->refinements.empty()) return {};
+	for (int axis = 0; axis < analysis.grid->dim; ++axis)
+		for (const int sign : { 1, -1 })
+			if (fixes(axis))
+				if (const string text = faceBetweenLines(*this, points, *analysis.grid, name, axis, sign); !text.empty())
+					return { { "betweenLines", text } };
+	return {};
+}
+
 void MpmBoundary::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
 	const bool isKnown = analysis.reactions.size() == listed.count;

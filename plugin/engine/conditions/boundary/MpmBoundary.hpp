@@ -87,14 +87,15 @@ public:
 	{
 		return surface && body.empty() ? name + ".surface without the body that it holds (MpmBoundary.body)" : "";
 	}
-	string              onlyOn() const override { return body; }
-	const Serializable* ownSurface() const override { return surface.get(); }
-	bool                mayHold(int axis, Real place, Real near) const override;
-	string              idleness(const string& name, bool reaches) const override;
-	void                tell(Rows&, const Analysis&, const Listed&) const override;
-	string              firstDoubt(const string& name) const override { return motion ? motion->doubt(name) : ""; }
-	const char*         picture() const override { return "walls"; }
-	void                draw(Picture&, const Analysis&, const Listed&) const override;
+	string                   onlyOn() const override { return body; }
+	const Serializable*      ownSurface() const override { return surface.get(); }
+	bool                     mayHold(int axis, Real place, Real near) const override;
+	string                   idleness(const string& name, bool reaches) const override;
+	std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
+	void                     tell(Rows&, const Analysis&, const Listed&) const override;
+	string                   firstDoubt(const string& name) const override { return motion ? motion->doubt(name) : ""; }
+	const char*              picture() const override { return "walls"; }
+	void                     draw(Picture&, const Analysis&, const Listed&) const override;
 
 private:
 	string whatContradicts(int axis) const;
