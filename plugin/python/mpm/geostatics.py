@@ -62,7 +62,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 		their place. It acts in the first step, so an analysis may begin with ``mpm.stages.replace`` in several steps instead where that is much.
 	:raises TypeError: *K0*, *OCR* or *surface* is no number, *bodies* no list of labels.
 	:raises ValueError: a value that is not admitted; gravity that is zero or not along an axis; a load factor other than 1 at O.time;
-		points that have been deformed; ground that is not level, with layers of one density and one extent; or a stress that a
+		points that have been deformed; ground that is not level, with layers of one density, one extent and one K0; or a stress that a
 		material cannot carry without yielding, with the depth of the highest point where it is so.
 	"""
 	solver = solverOf('geostatic', solver)
@@ -89,6 +89,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
 	depth = surface - height
 	horizontal, past, before = _history(K0, OCR, points, materials, number, pressure, depth, areBodies)
+	rows.requireRest(pressure, horizontal)
 	horizontal = np.where(isBody, rows.ofGround(horizontal), horizontal)
 	past[isBody], before[isBody] = math.nan, math.nan
 	_assign(points, _stress(pressure, horizontal, axis), past, _stress(*before.T, axis), depth, horizontal / np.where(pressure > 0, pressure, 1))
@@ -260,9 +261,19 @@ def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):
 
 
 class _Rows:
-	"""The horizontal rows of points, from the top; refuses ground that is not level. Bodies have no part in it: those that stand out of it weigh nothing here."""
+	"""The horizontal rows of points, from the top; refuses ground that is not level. Bodies have no part in it: those that stand out of it weigh nothing here.
+
+	Points of several sizes (MpmGrid.refinements, points that were split) are cut into horizontal slices of the smallest thickness, which are what rows are made of; a value of a point is
+	that of its slices, or their mean.
+	"""
 
 	def __init__(self, points, height, half, density, isBody):
+		number = np.maximum(np.rint(half / half.min()), 1).astype(int)  # of slices, by point
+		self.point = np.repeat(np.arange(len(half)), number)
+		first = np.cumsum(number) - number
+		offset = (2 * (np.arange(number.sum()) - first[self.point]) + 1) / number[self.point] - 1
+		height, half = height[self.point] + offset * half[self.point], half[self.point] / number[self.point]
+		density, isBody, volume = density[self.point], isBody[self.point], points['volume'][self.point] / number[self.point]
 		self.order = np.argsort(-height, kind='stable')
 		step = 2 * half.min()
 		self.row = np.concatenate([[0], np.cumsum(-np.diff(height[self.order]) > 1e-6 * step)])  # of each point, in this order
@@ -270,7 +281,7 @@ class _Rows:
 		first = np.flatnonzero(np.diff(self.row, prepend=-1))
 		self.level, self.thickness = height[self.order][first], 2 * half[self.order][first]
 		self.density = self._ofFirst(density[self.order], first)
-		area = np.bincount(self.row, (points['volume'] / (2 * half))[self.order])
+		area = np.bincount(self.row, (volume / (2 * half))[self.order])
 		hasGround = np.bincount(self.row, self.isGround) > 0
 		self.isAbove = np.cumsum(hasGround | (np.abs(area / area.max() - 1) < 1e-9)) == 0
 		self.density[self.isAbove] = 0
@@ -292,7 +303,7 @@ class _Rows:
 		unequal = np.flatnonzero((np.abs(area / area[first] - 1) > 1e-9) & ~self.isAbove)
 		if unequal.size:
 			raise ValueError(
-			        f'geostatic: the ground is not level: the points at the height {level[first]} m cover {area[first]} m2, those at '
+			        f'geostatic: the ground is not level, or has a hole: the points at the height {level[first]} m cover {area[first]} m2, those at '
 			        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Fill level ground, call geostatic, and dig out '
 			        'what is missing (mpm.stages.excavate), or place what is on top (mpm.stages.place). Or let gravity grow first, and then the loads: '
 			        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
@@ -307,14 +318,32 @@ class _Rows:
 
 	def ofGround(self, values):
 		"""Values (N,) of the points in the place of bodies: those of the ground in their row, or where there is none their own."""
-		ordered = values[self.order]
+		ordered = self._ofSlices(values)
 		own = ordered.copy()
 		ground = self._ofFirst(ordered, np.flatnonzero(np.diff(self.row, prepend=-1)))[self.row]
 		hasGround = np.bincount(self.row, self.isGround)[self.row] > 0
 		own[hasGround] = ground[hasGround]
-		result = np.empty(len(own))
-		result[self.order] = own
-		return result
+		return self._means(own)
+
+	def requireRest(self, vertical, horizontal):
+		"""Refuses pressures (N,) that differ along a row of ground: what is pressed more moves towards what is pressed less. Points of other sizes have their middle elsewhere: of them
+		the ratio is compared."""
+		ratio = horizontal / np.where(vertical > 0, vertical, 1)
+		size = self._ofSlices(np.bincount(self.point))
+		for values, groups in (ratio, self.row), (horizontal, self.row * (size.max() + 1) + size):
+			ordered, ground = self._ofSlices(values), groups[self.isGround]
+			low, high = np.full(groups.max() + 1, math.inf), np.full(groups.max() + 1, -math.inf)
+			np.minimum.at(low, ground, ordered[self.isGround])
+			np.maximum.at(high, ground, ordered[self.isGround])
+			differing = np.flatnonzero(high - low > 1e-6 * np.abs(values).max())
+			if differing.size: self._refuseUnequalStress(np.flatnonzero(self.isGround & (groups == differing[0])), self._ofSlices(horizontal))
+
+	def _refuseUnequalStress(self, slices, horizontal):
+		raise ValueError(
+		        f'geostatic: the horizontal stress of the points at the height {self.level[self.row[slices[0]]]} m differs, from {-horizontal[slices].max():.6g} to '
+		        f'{-horizontal[slices].min():.6g} Pa, as K0 (by friction, OCR) or the pressure of water is not the same along the row; only horizontal layers are at rest. Give one K0 for '
+		        'all, as in geostatic(K0=0.5), or let gravity grow first: gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
+		)
 
 	def areAbove(self):
 		"""Of each point whether it stands out of the ground."""
@@ -322,13 +351,13 @@ class _Rows:
 
 	def areAlike(self, values):
 		"""Whether values (N,) of the points are the same all along each row."""
-		ordered = values[self.order]
+		ordered = self._ofSlices(values)
 		first = ordered[np.flatnonzero(np.diff(self.row, prepend=-1))]
 		return (np.abs(ordered - first[self.row]) <= 1e-9 * np.abs(values).max()).all()
 
 	def above(self, values):
 		"""Integral of values (N,) of the points over the height, from the top to the middle of each point; of each row their mean."""
-		parts = np.bincount(self.row, values[self.order]) / np.bincount(self.row) * self.thickness
+		parts = np.bincount(self.row, self._ofSlices(values)) / np.bincount(self.row) * self.thickness
 		return self.toPoints(np.cumsum(parts) - parts / 2)
 
 	def weightAbove(self, cover):
@@ -337,6 +366,12 @@ class _Rows:
 		return self.toPoints(cover * self.density[0] + np.cumsum(masses) - masses / 2)
 
 	def toPoints(self, ofRows):
-		result = np.empty(len(self.order))
-		result[self.order] = ofRows[self.row]
-		return result
+		return self._means(ofRows[self.row])
+
+	def _ofSlices(self, values):
+		"""Values (N,) of the points at their slices, in the order of these."""
+		return values[self.point][self.order]
+
+	def _means(self, ordered):
+		"""Of each point the mean of its slices' values."""
+		return np.bincount(self.point[self.order], ordered) / np.bincount(self.point)

@@ -7,7 +7,9 @@ import numpy as np
 from .analysis import noPoints, solverOf
 from .data import pointsOf
 from .messages import brief, isNumber
+from .slips import leastPlaneSlip
 
+_mostBeyondSlip = 1.1  # factor of safety over that of a plane slip [-], by which cells may be too strong
 _criterion = 'no equilibrium, or displacements of more than 3 times the largest elastic strain times the smallest extent of the body'
 
 
@@ -26,6 +28,9 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	The result depends on the mesh: it falls with the cells, without a limit where psi is less than phi. So the cell size is part of it. ``fBar=True`` of the engine takes
 	away what locking adds.
 
+	Of a dry slope of Mohr-Coulomb or Tresca soil in plane strain that only its weight loads, F is compared with plane slips (Culmann 1875; with c = 0 the infinite slope): cells that carry
+	more than 1.1 times the least of them are refused.
+
 	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
 	:param tolerance: width of the bracket [-] over its lower end, > 0 and < 1
 	:param first: the factor that is tried first, > 0
@@ -35,7 +40,7 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 		``displacement`` (N, 3) [m] and ``plasticStrain`` (N,), what is added to those of the current state, in order of body id. ``mpm.plot(found['plasticStrain'])`` draws it.
 	:raises TypeError: an argument of the wrong kind.
 	:raises ValueError: a value that is not admitted; materials without a strength that could be divided (elastic ones alone, Cam clay); a state that is not in equilibrium or
-		so strong or weak that no bracket is found; or what a load step would refuse.
+		so strong or weak that no bracket is found; cells that carry more than plane slips let stand; or what a load step would refuse.
 	"""
 	solver = solverOf('strengthReduction', solver)
 	for name, value, low, high in ('tolerance', tolerance, 0, 1), ('first', first, 0, math.inf), ('factor', factor, 1, math.inf):
@@ -48,9 +53,23 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 		middle = (lower + upper) / 2
 		if search.carries(middle): lower = middle
 		else: upper = middle
+	_requireCarried(solver, lower)
 	found = dict(lower=lower, upper=upper, cellSize=solver.grid.cellSize, criterion=_criterion, trials=search.trials, **search.slip)
 	print(f'factor of safety: {lower:.4g} to {upper:.4g}, with cells of {solver.grid.cellSize:g} m; failed: {_criterion}')
 	return found
+
+
+def _requireCarried(solver, lower):
+	"""Refuses a factor that a plane slip does not let stand: the cells are too few to slip, and lock or are held by the stabilisation."""
+	points, materials, number = pointsOf(solver)
+	slip = leastPlaneSlip(solver, points, materials, number)
+	if slip is None or lower <= _mostBeyondSlip * slip[0]: return
+	F, foot, angle = slip
+	raise ValueError(
+	        f'strengthReduction: cells of {solver.grid.cellSize:g} m carry a strength that is divided by {lower:.3g}, but the plane from ({foot[0]:.4g}, {foot[1]:.4g}) upwards at '
+	        f'{math.degrees(angle):.3g} degrees slips at {F:.3g} (upper bound by hand; tan(phi) / tan(beta) of an infinite slope without cohesion), so no factor of safety is given. '
+	        'Compare with halved cells, fBar=True and ghost=MpmGhost(where=\'aggregates\', memory=1, workTolerance=0.03).'
+	)
 
 
 class _Search:
