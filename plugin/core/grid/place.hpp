@@ -47,7 +47,8 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 			for (int a = 0; a < Dim; ++a) {
 				const int neighbour = c ^ 1 << a;
 				if (!(span >> a & 1) || (reached >> neighbour & 1)) continue;
-				if (!lowerFaceIsWall(boundary, corner<Dim>(lowest, c | 1 << a), a, level, layer)) reached |= 1 << neighbour;
+				const Index<Dim> face = corner<Dim>(lowest, c | 1 << a) * (1 << level);
+				if (!boundary.lowerFaceHides(face, a, level, layer)) reached |= 1 << neighbour;
 			}
 		}
 	}

@@ -529,6 +529,30 @@ namespace {
 			EXPECT_NEAR(bar.strain[i], strain, 1e-4 * strain);
 	}
 
+	/// Sand that only the stabilisation would hold goes on until stress bears it, also beside a bar that bears
+	/// next to nothing.
+	TEST(Structures, TheWorkOfTheStabilisationIsKnownBesideABar)
+	{
+		StepReport reports[2];
+		for (const bool hasBar : { false, true }) {
+			Ground<2> ground;
+			ground.model.materials           = { { MohrCoulomb(1e6, 0.3, 10, 0.5, 0), 1e3 } };
+			ground.model.newton.tolerance    = 1e-8;
+			ground.model.ghost.workTolerance = 0.05;
+			if (hasBar) ground.nail().section.stiffness = 1e-3;
+			else
+				ground.model.coupledTerms.clear();
+			Load<2> load;
+			load.gravity    = { 0, -10 };
+			load.factor     = { 1, 1 };
+			reports[hasBar] = loadStep(ground.cloud, ground.model, load, ground.solver);
+			ASSERT_TRUE(reports[hasBar].converged()) << reports[hasBar].cause;
+		}
+		EXPECT_GT(reports[0].passes, 0);
+		EXPECT_EQ(reports[1].passes, reports[0].passes);
+		EXPECT_NEAR(reports[1].ghostShare, reports[0].ghostShare, 1e-4);
+	}
+
 	/// A loaded beam on soil hands all of its load to it.
 	TEST(Structures, ABeamStandsOnTheSoil)
 	{
