@@ -122,3 +122,27 @@ print(json.dumps({how: stands(how) for how in ('nodes', 'smooth', 'held', 'rough
 ''').result
 	for nodes, contact in ('nodes', 'smooth'), ('held', 'rough'):
 		assert abs(found[contact][0] / found[nodes][0] - 1) < 0.03, found
+
+
+def test_cells_that_carry_more_than_a_plane_slip_are_refused(yade):
+	"""Sand without cohesion stands at 45 degrees on cells of 1 m, where tan(phi) / tan(beta) is 0.70; clay of the same slope has its number."""
+	told, found = yade(
+	        scene + """
+def slope(cohesion, friction):
+	O.reset()
+	O.materials.append(MpmMohrCoulombMat(young=2e7, poisson=.3, density=2000, cohesion=cohesion, frictionAngle=radians(friction), label='soil'))
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (12, 0), (12, 2), (9, 2), (5, 6), (0, 6)]), grid, 2, 'soil'))
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(12, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=held, verbosity=0)]
+	O.dt = 1 / 10
+	O.run(10, wait=True)
+	return mpm.strengthReduction(tolerance=.1)['lower']
+
+try: told = str(slope(0, 35))
+except ValueError as error: told = str(error)
+print(json.dumps([told, slope(2e4, 20)]))
+"""
+	).result
+	assert told.startswith('strengthReduction: cells of 1 m carry') and 'tan(phi) / tan(beta)' in told and 'halved cells' in told, told
+	assert 1 < found < 3
