@@ -75,6 +75,15 @@ namespace {
 		return "";
 	}
 
+	// F-bar holds the mean dilation of a cell alone; domains of the points' volume tie that of each point to it.
+	string warningOfDrift(const Analysis& engine)
+	{
+		if (!engine.fBar || engine.basis != "mpm") return "";
+		return sentence(
+		        "basis = 'mpm' with fBar = True lets volumes of points in a cell drift apart where soil shears on and on. basis='gimp' keeps them equal; "
+		        "fBar=False is for soil that does not lock.");
+	}
+
 	// YADE begins with O.dt = 1e-8, for grains, which may also need steps that are as short.
 	template <int Dim> string warningOfShortStep(const Analysis& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
 	{
@@ -123,6 +132,7 @@ std::map<string, string> warningsOfFirstStep(
 	found["density"]   = warningOfDensity(engine, points);
 	found["velocity"]  = warningOfVelocity(engine, points);
 	found["locking"]   = warningOfLocking(engine, points, model.grid, high - low);
+	found["drift"]     = warningOfDrift(engine);
 	found["shortStep"] = warningOfShortStep(engine, cloud, model);
 	found["noContact"] = warningOfNoContact(engine, low, high);
 	for (const Listed& listed : engine.conditions())

@@ -225,6 +225,8 @@ doubted = [
         ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil")); O.step(); O.step()', 'poisson = 0.49'),
         ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil"), fBar=True); O.step()', ''),
         ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil"), lambda: box((0, 0), (1, 4))); O.step()', ''),
+        ('scene(basis="mpm", fBar=True); O.step(); O.step()', "basis = 'mpm' with fBar = True"),
+        ('scene(basis="mpm"); O.step()', ''),
         ('moving(boundaries=[based(shaken)]); O.step(); O.step()', 'boundaries[0].motion.history is of velocities'),
         ('moving(boundaries=[based(np.cumsum(shaken) * 0.01 - 0.01 * np.cumsum(np.full(1001, shaken.mean())))]); O.step()', ''),
         ('deformed(); O.step(); mpm.stages.place(box((0, 5), (3, 6.2), MpmGrid(cellSize=0.6))); O.step(); O.step()', 'Was mpm.fill given another MpmGrid than the engine?'),
