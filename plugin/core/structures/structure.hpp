@@ -84,7 +84,7 @@ struct Beam {
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
-	/// By vertex, at the end of the step: pressure of the water to its left less that to its right [Pa]; null: none.
+	/// By vertex, at the end of the step: water pressure to its left less that to its right [Pa]; null: none.
 	const std::vector<double>* waterPressure = nullptr;
 	double                     shrinkage     = 1; ///< in this step: lengths without stress after it over those before
 

@@ -195,8 +195,8 @@ template <int Dim> Eigen::VectorXd StructureForce<Dim>::soilAt(const Eigen::Vect
 	return soil;
 }
 
-/// An equilibrium that has been found is the first guess of the next one. Displacements without one, which a line search
-/// tries and leaves, must not spoil it.
+/// An equilibrium that has been found is the first guess of the next one. Displacements without one, which a line
+/// search tries and leaves, must not spoil it.
 template <int Dim> Eigen::VectorXd StructureForce<Dim>::equilibrium(const Eigen::VectorXd& d) const
 {
 	const auto solution = system_->solve(soilAt(d), last_);

@@ -9,7 +9,8 @@ public:
 	Real share
 	        = 1; // of what acts on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
 
-	// Soil that is being dug out: the stress of its grains is total stress, and water passes its pores without pressing on them. Given as *share*.
+	// Soil that is being dug out: the stress of its grains is total stress, and water passes its pores without
+	// pressing on them. Given as *share*.
 	bool isDugOut = false;
 
 	bool   undrained         = false;

@@ -19,8 +19,8 @@ template <int Dim> struct Water {
 	bool                wantsWork = false;            ///< which takes two passes over the points
 	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
 
-	/// Beside walls where the pressure jumps: number of the side that a place is on, from 1, 0 elsewhere; and by side
-	/// the pressure as it goes on from there. Null: as elsewhere.
+	/// Beside walls where the pressure jumps: number of the side that a place is on, from 1, 0 elsewhere; and by
+	/// side the pressure as it goes on from there. Null: as elsewhere.
 	std::function<int(const Vec<Dim>&)> sideOf {};
 	std::vector<Pressure>               beside {}, besideBefore {};
 

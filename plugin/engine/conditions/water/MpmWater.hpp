@@ -28,8 +28,8 @@ public:
 	gimpm::LoadCurve::Knees curve; // empty: that of gravity
 	string                  where = "everywhere";
 	vector<Vector3r>        onBoundaries;
-	// Hidden: values of the function in the state reached, and at the end of the coming step. Of each node of the grid
-	// three grid coordinates and the pressure; cell size and origin of that grid.
+	// Hidden: values of the function in the state reached, and at the end of the coming step. Of each node of the
+	// grid three grid coordinates and the pressure; cell size and origin of that grid.
 	vector<Real> table, next, tableGrid;
 	// Hidden: the same beside beams, of each place two coordinates and the pressure.
 	vector<Real> besideWalls, nextBesideWalls;

@@ -13,11 +13,12 @@ namespace yade {
 // Time of a pressure: in the state reached, or at the end of the coming step.
 enum class When { now, next };
 
-// What a function is still to be asked: about nodes around the cells, and places beside walls, that the water's tables do not have yet.
+// What a function is still to be asked: about nodes around the cells, and places beside walls, that the water's tables
+// do not have yet.
 template <int Dim> class PressureQuestion : public Question {
 public:
-	// None if the tables have all. std::invalid_argument, in the name given, where something is missing and there is
-	// no function any more.
+	// None if the tables have all. std::invalid_argument, in the name given, where something is missing and there
+	// is no function any more.
 	static std::optional<PressureQuestion> of(
 	        MpmWater&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells, const string& name, When, const vector<WallInWater>&);
 
@@ -50,9 +51,9 @@ public:
 	using Pressure = std::shared_ptr<const gimpm::WaterPressure<Dim>>;
 	using Places   = std::map<std::pair<Real, Real>, Real>; // pressures beside walls
 
-	// Asks the function where the water's tables do not have pressures yet. Studies, whose times are equal, know the
-	// state reached only. std::invalid_argument, in the name given, for what the function returns or raises, or where
-	// there is no function any more.
+	// Asks the function where the water's tables do not have pressures yet. Studies, whose times are equal, know
+	// the state reached only. std::invalid_argument, in the name given, for what the function returns or raises, or
+	// where there is no function any more.
 	PressureInTime(
 	        MpmWater&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells, const string& name, Real begin, Real end, const vector<WallInWater>&);
 

@@ -6,7 +6,8 @@
 
 namespace yade {
 
-// A beam, and where a function is asked for the pressure on its two sides. Functions know the beam where it has been put in.
+// A beam, and where a function is asked for the pressure on its two sides. Functions know the beam where it has been
+// put in.
 struct WallInWater {
 	using Vec2 = gimpm::Vec<2>;
 
@@ -29,7 +30,8 @@ struct WallInWater {
 
 vector<WallInWater> wallsInWater(const vector<Listed>&, const gimpm::Grid<2>&);
 
-// The side of beams, as they are now, that a place near them is on: 1 + 2 w left, 2 + 2 w right of wall w; 0: near none.
+// The side of beams, as they are now, that a place near them is on: 1 + 2 w left, 2 + 2 w right of wall w; 0: near
+// none.
 class SideOfWalls {
 public:
 	SideOfWalls(const vector<WallInWater>&, Real cellSize);
