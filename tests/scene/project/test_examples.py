@@ -556,7 +556,7 @@ def test_life_of_a_reservoir(yade):
 	F = list(map(float, re.findall(r': F = (\S+), crest', run.stdout)))
 	built, filled, steady, half, empty, *later = F
 	assert len(later) == 3 and empty < later[0] < later[1] and abs(later[-1] / built - 1) < 0.1
-	assert filled >= built > steady > half >= empty
+	assert filled >= built > steady >= half >= empty  # the downstream face governs
 	pressures = list(map(float, re.findall(r'pressures up to (\S+) kPa', run.stdout)))
 	assert pressures == sorted(pressures, reverse=True) and pressures[0] > 20 and pressures[-1] < 1
 	assert (run.folder / 'out/reservoir/reservoir.png').stat().st_size > 20000

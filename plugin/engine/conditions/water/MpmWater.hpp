@@ -52,7 +52,7 @@ public:
 		v("levels", &MpmWater::levels, 0,
 		  "The same as it rises and falls: (time [s], level [m]), times increasing, linear between; empty, the default: see *level*.", curveOrNothing);
 		v("pressure", &MpmWater::pressure, noSave,
-		  "Function of the position that returns the pressure [Pa] at the end of the coming step. Asked before each step at the grid's nodes, linear between; files keep those near the points.");
+		  "Function of the position that returns the pressure [Pa] at the end of the coming step. Asked before each one at the grid's nodes, linear between; files keep answers.");
 		v("weight", &MpmWater::weight, 0, "Weight of water by volume [N/m³] > 0, with *level* and *levels*.", positive);
 		v("curve", &MpmWater::curve, 0, "Factor [-] of all pressures as *MpmImplicitEngine.loadCurve*; empty, the default: that of gravity.",
 		  curveOrNothing);
