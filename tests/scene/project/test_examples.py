@@ -560,7 +560,7 @@ def test_life_of_a_reservoir(yade):
 	pressures = list(map(float, re.findall(r'pressures up to (\S+) kPa', run.stdout)))
 	assert pressures == sorted(pressures, reverse=True) and pressures[0] > 20 and pressures[-1] < 1
 	assert (run.folder / 'out/reservoir/reservoir.png').stat().st_size > 20000
-	run = yade(root / 'examples' / 'water' / 'reservoir.py', '--cellSize', 2, '--tolerance', .05, '--upstream', 1.75)
+	run = yade(root / 'examples' / 'water' / 'reservoir.py', '--cellSize', 1.5, '--tolerance', .05, '--upstream', 1.75)
 	built, filled, steady, half, empty, *later = map(float, re.findall(r': F = (\S+), crest', run.stdout))
 	assert empty < .93 * steady and later[-1] == pytest.approx(built, rel=.06), run.stdout  # the face before the water governs
 

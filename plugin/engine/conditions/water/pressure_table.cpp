@@ -323,6 +323,8 @@ template <int Dim> vector<Real> PressureInTime<Dim>::jumps(const WallInWater& wa
 		all.push_back(left - right);
 		largest = std::max(largest, std::abs(left - right)), most = std::max({ most, std::abs(left), std::abs(right) });
 	}
+	for (const auto& behind : wall.behind)
+		most = std::max(most, std::abs(besideAt(behind.before, share)));
 	return largest > roundOff * most ? all : vector<Real>();
 }
 

@@ -78,7 +78,7 @@ namespace {
 
 WallInWater::WallInWater(const shared_ptr<MpmBeam>& beam, const string& name, const gimpm::Grid<2>& grid) : beam(beam)
 {
-	const Real away = 1e-3 * grid.cellSize;
+	const Real away = 1e-4 * grid.cellSize;
 	const auto line = fineLine<2>(inDimension<2>(placesOf(beam->line)), name, grid);
 	for (size_t v = 0; v < line.size(); ++v) {
 		const Vec2 n = normalAt(line, v);
