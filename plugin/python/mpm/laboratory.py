@@ -221,7 +221,8 @@ def stateUnder(who, material, stress, internals):
 	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, _numbers(stress), internals))
 	hasTensors = _named(who, engine.hasTensorLaw, material)
 	answer = _named(who, engine.respondInSpace, material, _rows(np.diag(elasticStrain)), _rows(np.zeros((3, 3))), internals, 0.) if hasTensors else _named(who, engine.respond, material, _numbers(elasticStrain), internals)
-	return SimpleNamespace(hasTensors=hasTensors, strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=internals | answer['internals'])
+	first = answer['internals'] | internals if hasTensors else internals | answer['internals']  # the call at rest is no increment of a user material
+	return SimpleNamespace(hasTensors=hasTensors, strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=first)
 
 
 def _advance(test, material, state, to, kept):

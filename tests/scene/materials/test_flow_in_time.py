@@ -15,8 +15,8 @@ def incline(law, scheme, dt, **settings):
 	O.reset()
 	if law == 'viscosity': O.materials.append(MpmVonMisesMat(young=young, poisson=.3, density=rho, yieldStress=2**.5 * strength, viscosity=eta, label='mud'))
 	else: O.materials.append(MpmTrescaMat(young=young, poisson=.3, density=rho, undrainedStrength=strength, relaxationTime=eta / G, label='mud'))
-	grid = MpmGrid(cellSize=h, period=(2 * h, 0, 0))
-	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2 * h, 0), (2 * h, H), (0, H)]), grid, 2, 'mud'))
+	grid = MpmGrid(cellSize=h, period=(3 * h, 0, 0))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3 * h, 0), (3 * h, H), (0, H)]), grid, 2, 'mud'))
 	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(g0 * np.sin(slope), -g0 * np.cos(slope), 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], basis='mpm',
 		verbosity=0, **settings)
 	O.engines, O.dt = [solver], dt
@@ -37,7 +37,7 @@ print(json.dumps([incline('viscosity', 'newmark', 5e-3), incline('viscosity', 'g
 ''').result
 	speeds = [speed for speed, *_ in results]
 	assert all(abs(speed - speeds[0]) < .02 for speed in speeds) and .93 < speeds[0] < 1.01, results
-	assert all(abs(imbalance) < .02 and abs(grid) < .02 for _, imbalance, grid in results), results
+	assert all(abs(imbalance) < .01 and abs(grid) < 1e-3 for _, imbalance, grid in results), results
 
 
 def test_an_absorbing_edge_takes_over_the_stress_that_held(yade):
@@ -46,11 +46,11 @@ def test_an_absorbing_edge_takes_over_the_stress_that_held(yade):
 O.materials.append(MpmVonMisesMat(young=young, poisson=.3, density=rho, yieldStress=10e3, relaxationTime=1e-8, label='mud'))
 grid = MpmGrid(cellSize=h)
 O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (1, 1, 1)), grid, 2, 'mud'))
-mpm.assign(stress=(0, -100e3, 0))
+mpm.assign(stress=np.tile(np.diag([0, -100e3, 0]), (len(mpm.arrays()['id']), 1, 1)))
 edge = MpmAbsorbingBoundary(max=(inf, 0, inf))
 held = [MpmBoundary(min=(-inf, 1, -inf), fix='y'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
 O.engines, O.dt = [MpmDynamicEngine(grid=grid, scheme='generalised-alpha', boundaries=held, absorbing=[edge], verbosity=0)], 1e-7
 O.step()
-print(json.dumps(list(edge.force)))
+print(json.dumps(list(edge.reaction)))
 ''').result
 	assert abs(force[1] / 100e3 - 1) < 1e-2, force
