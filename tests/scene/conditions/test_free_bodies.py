@@ -194,9 +194,10 @@ def spin(members, scheme):
 	soil(engine=MpmDynamicEngine, scheme=scheme, dt=0.02, g=0)
 	parts = [utils.sphere((x, 5, 0), 0.3, material='rigid', fixed=False) if size is None else utils.box((x, 5, 0), size, material='rigid', fixed=False) for x, size in members]
 	body = O.bodies[O.bodies.appendClumped(parts)[0]]
-	body.state.angVel = (0, 0, 1.5)
+	first, body.state.angVel = Quaternion(body.state.ori), (0, 0, 1.5)
 	O.run(8, wait=True)
-	return body.state.angVel[2], body.state.rot()[2]
+	axis, angle = (body.state.ori * first.conjugate()).toAxisAngle()
+	return body.state.angVel[2], angle * axis[2]
 print(json.dumps([spin(members, scheme) for scheme in ('newmark', 'generalised-alpha', 'midpoint') for members in
 	([(0.8, None), (1.2, None)], [(0.8, (0.2, 0.2, 0.3)), (1.2, (0.2, 0.2, 0.3))], [(0.8, (0.2, 0.2, 2)), (1.2, (0.2, 0.2, 2))])]))
 ''').result
