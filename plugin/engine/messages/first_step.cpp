@@ -104,7 +104,8 @@ namespace {
 		const Vector3r   reach = Vector3r::Constant(2 * engine.grid->cellSize);
 		const auto       scene = engine.ownScene();
 		const BodiesLock lock(*scene);
-		for (const auto& body : *scene->bodies) {
+		for (size_t id = 0; id < scene->bodies->size(); ++id) {
+			const auto& body = (*scene->bodies)[unsigned(id)];
 			if (!body || !body->shape || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
 			const Vector3r& x        = body->state->pos;
 			const auto      isInside = ((x - low + reach).array() > 0 && (high + reach - x).array() > 0).head(engine.grid->dim);

@@ -26,8 +26,8 @@ Vector3r MpmBaseMotion::displacementBetween(Real begin, Real end) const
 	return sum * direction;
 }
 
-// As mpm.record asks of velocities: an acceleration changes much faster, and drifts when it is taken for a velocity. Pulses
-// and other short histories are not judged.
+// The criteria of mpm.record: an acceleration changes much faster than a velocity, and drifts when it is taken for one.
+// Pulses and other short histories are not judged.
 string MpmBaseMotion::doubt(const string& name) const
 {
 	constexpr size_t fewest   = 100;
