@@ -219,7 +219,7 @@ doubted = [
         ('scene(); rock((2, 4.5, 0)); O.step(); O.step()', 'has no contacts, so that soil passes through it'),
         ('scene(contacts=[MpmContact(friction=0.3)]); rock((2, 4.5, 0)); O.step()', ''),
         ('scene(); rock((2, 40, 0)); O.step()', ''),
-        ('scene(loads=[beam(20)]); O.step(); O.step()', 'loads[0], an MpmBeam from (20 3) to (20 1), is in the air'),
+        ('scene(loads=[beam(20)]); O.step(); O.step()', 'is in the air: no material point is beside it'),
         ('scene(loads=[beam(2)]); O.step()', ''),
         ('scene(); mpm.assign(velocity=np.tile((1e-3, 0, 0), (64, 1))); O.step(); O.step()', 'does not use, as its steps have no inertia'),
         ('made(MpmElasticMat(young=1e6, poisson=0.49, density=2000, label="soil")); O.step(); O.step()', 'poisson = 0.49'),
