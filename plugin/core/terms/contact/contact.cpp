@@ -348,6 +348,10 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 	});
 }
 
+/// Distance [cells] of a middle from a sheet below which it lies on it.
+constexpr double littleGap         = 1e-3;
+constexpr char   whereSoilBegins[] = "; the middle of that point lay on the body as the step began";
+
 /// The middle of a point that ends inside of a body, or on another side of it.
 template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
@@ -359,7 +363,10 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 		};
 	const std::string found = division_.firstSaid(entered(d));
 	if (found.empty()) return {};
-	return { Failure::penetrated, found, "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help." };
+	return { Failure::penetrated, found,
+		 found.find(whereSoilBegins) == std::string::npos
+		         ? "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help."
+		         : "Lift the soil, or lower the body, by half the size of a point, so that all middles are on one side." };
 }
 
 /// Soil farther from a body than it is looked for may move as far as that and more.
@@ -387,6 +394,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
 		     << " m in the step, and the body up to " << body.motion() << " m";
+		if (body.shape.isTwoSided && before.gap + body.halfThickness() < littleGap * grid_.cellSize) text << whereSoilBegins;
 		return textAt(body, text.str().c_str(), x);
 	}
 	return {};
