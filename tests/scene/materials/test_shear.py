@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from conftest import root
 
 scene = '''
 import json, sys
@@ -105,3 +106,9 @@ print(json.dumps([solver.reactions[1][0], abs(half[:, :2] - np.minimum(U / 12, 1
 
 def test_anUnknownRuleIsRefused(yade):
 	assert "domains = 'boxes'" in yade(scene + "MpmImplicitEngine(domains='boxes')", fails=True).stderr
+
+
+def test_aBandAcrossTheGridBearsTheStrengthOfItsClay(yade):
+	"""At 10 degrees, to a shear of 0.75; walls of finite stiffness and free ends take a hundredth."""
+	run = yade(root / 'examples/benchmarks/shear.py', '--degrees', 10, '--shear', 0.75, '--steps', 24)
+	assert [float(line.split('= ')[1].split(',')[0]) for line in run.stdout.splitlines() if 'tau' in line][-4:] == pytest.approx([1] * 4, abs=0.015)
