@@ -21,19 +21,20 @@ bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& gri
 	return !areFarFromMaterial<2>({ place }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
-/// A tip by half a cell, so that it ends at the nearest line of the grid; another end out of the cells around it.
-PartingLine longer(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
+/// A tip by so much that the cut ends half a cell to one and a half cells beyond it; another end out of the cells around
+/// it.
+PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	constexpr double ofTip = 0.5, ofEnd = 1.5;
+	constexpr double ofTip = 1.5, ofEnd = 1.5;
 	PartingLine      line { beam.places, beam.isClosed, {}, 0 };
 	if (beam.isClosed) return line;
-	const int last = int(beam.places.size()) - 1;
-	for (const int end : { last, 0 }) {
-		const Vec<2> outwards = (end == 0 ? -1 : 1) * beam.tangentAt(end);
-		const bool   isTip    = hasSoil(beam.places[end] + aside * grid.cellSize * outwards, cloud, grid);
-		const Vec<2> beyond   = beam.places[end] + (isTip ? ofTip : ofEnd) * grid.cellSize * outwards;
+	for (const int end : { 1, 0 }) {
+		const Vec<2> vertex = end == 0 ? beam.places.front() : beam.places.back(), outwards = beam.outwardsAt(end);
+		const bool   isTip  = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
+		const Vec<2> beyond = vertex + (isTip ? ofTip : ofEnd) * grid.cellSize * outwards;
 		line.places.insert(end == 0 ? line.places.begin() : line.places.end(), beyond);
 		if (isTip) line.tips.push_back(beyond);
+		beam.isTip[end] = isTip;
 	}
 	return line;
 }
@@ -179,7 +180,7 @@ bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& o
 void lookBetween(const std::vector<Beam*>& beams, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	for (Beam* beam : beams)
-		beam->layer = 0, beam->isBetween = isBetween(*beam, cloud, grid);
+		beam->layer = 0, beam->isTip = {}, beam->isBetween = isBetween(*beam, cloud, grid);
 }
 
 std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& places, double cellSize)

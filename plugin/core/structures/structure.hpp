@@ -11,6 +11,10 @@
 
 namespace gimpm {
 
+/// Integration points of the bond ahead of a tip, and their distance [cells].
+constexpr int    bondsOfTip    = 12;
+constexpr double bondOfOnePart = 0.25;
+
 /// Lines are divided until their pieces are at most so long, in cells.
 constexpr double lengthOfPieces = 0.5;
 
@@ -69,6 +73,14 @@ struct BeamSide {
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
 };
 
+/// Stress between the two sides of the soil ahead of a tip, at one integration point of the bond that keeps them together
+/// (StructureForce).
+struct TipBond {
+	bool   isActive = false; ///< the cut reaches so far
+	double pressure = 0;     ///< normal stress, pressure positive [Pa]
+	double shear    = 0;     ///< on what is to the left of the line, from what is to its right, along it [Pa]
+};
+
 /// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs. Around
 /// an axis it is the meridian of a shell of revolution: forces are those on the whole ring then.
 struct Beam {
@@ -103,6 +115,8 @@ struct Beam {
 	int layer = 0;
 	/// In this step: it has soil on both of its sides, and parts it or does not.
 	bool isBetween = false;
+	/// In this step: its first and its last vertex are tips of a cut, which goes on beyond them (parting_lines.hpp).
+	std::array<bool, 2> isTip {};
 
 	/// As the step begins.
 	std::vector<Vec<2>>     places;
@@ -113,6 +127,8 @@ struct Beam {
 	std::vector<double>     elongation; ///< of the pieces [m]
 	std::vector<Vec<2>>     bend;       ///< of the pieces: elastic turns of their ends [rad]
 	std::array<BeamSide, 2> sides;      ///< left and right
+	/// Ahead of the first and of the last vertex, by integration point.
+	std::array<std::array<TipBond, bondsOfTip>, 2> bonds {};
 	/// By vertex: whether it has had soil on both sides only as one body, or none yet. When that is parted the beam
 	/// bears the stress that was in it.
 	std::vector<char> isStuck;
@@ -163,7 +179,9 @@ struct Beam {
 		const double own = radius0[piece + end], other = radius0[piece + 1 - end];
 		return M_PI * (2 * own + other) / 3 * length0[piece];
 	}
-	bool isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
+	/// Outwards from its first (0) or its last (1) vertex.
+	Vec<2> outwardsAt(int end) const { return (end == 0 ? -1 : 1) * tangentAt(end == 0 ? 0 : int(places.size()) - 1); }
+	bool   isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
 	/// Along the beam at a vertex, from its first to its last one.
 	Vec<2> tangentAt(int vertex) const
 	{

@@ -87,7 +87,10 @@ template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(con
 			lookBesideBeam(step, soil);
 			for (std::size_t v = 0; v < structure_.beam->places.size(); ++v)
 				soil[v].normalStress = normalStress(near[v].stress, structure_.beam->tangentAt(int(v)));
-			if (structure_.beam->layer > 0) partAlongBeam(step, soil);
+			if (structure_.beam->layer > 0) {
+				partAlongBeam(step, soil);
+				bondAheadOfTips(step, soil);
+			}
 		}
 	return soil;
 }
@@ -147,6 +150,42 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 				beside.normalStress  = normalStress(near[side][v].stress, t);
 				beside.shearStress   = shearStress(near[side][v].stress, t);
 			}
+		}
+	}
+}
+
+/// Where the cut is longer than the beam its two sides are kept together at integration points, so that it matters
+/// little where a tip is in its cell.
+template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil)
+{
+	if constexpr (Dim == 2) {
+		const Beam&         beam = *structure_.beam;
+		const double        part = bondOfOnePart * step.grid.cellSize;
+		std::vector<Vec<2>> places;
+		for (const int end : { 0, 1 })
+			for (int i = 0; i < bondsOfTip; ++i)
+				places.push_back((end == 0 ? beam.places.front() : beam.places.back()) + (i + 0.5) * part * beam.outwardsAt(end));
+		const auto       near = soilNear<2>(places, std::vector<double>(places.size(), step.grid.cellSize), step);
+		const EdgeOfSoil edges(places, step.grid.cellSize, step.cloud);
+		for (std::size_t i = 0; i < places.size(); ++i) {
+			const int                   end = int(i) / bondsOfTip;
+			const Vec<2>                t   = beam.tangentAt(end == 0 ? 0 : int(beam.places.size()) - 1);
+			std::array<SoilAtVertex, 2> beside;
+			const Vec<2>                n(-t[1], t[0]);
+			const auto attachTo = [&](int layer, double away) { return attach<2>(places[i] + away * n, step.basis, step.grid, layer); };
+			auto       left = attachTo(0, 0), right = attachTo(beam.layer, 0);
+			const bool isParted = beam.isTip[end] && left && right && left->node != right->node;
+			if (isParted) left = attachTo(0, edges.from(places[i], n, 0)), right = attachTo(beam.layer, -edges.from(places[i], -n, beam.layer));
+			for (SoilAtVertex& at : beside) {
+				at.exists       = isParted && left && right && near[i].young > 0;
+				at.young        = near[i].young;
+				at.cellSize     = step.grid.cellSize;
+				at.normalStress = normalStress(near[i].stress, t);
+				at.shearStress  = shearStress(near[i].stress, t);
+				at.area         = part * (beam.isShell ? 2 * M_PI * places[i][0] : 1);
+			}
+			soil.insert(soil.end(), beside.begin(), beside.end());
+			attached_.push_back(left), attached_.push_back(right);
 		}
 	}
 }
@@ -304,6 +343,7 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 	const Beam& beam = *structure_.beam;
 	for (int place = 0; place < int(attached_.size()); ++place) {
 		if (place >= int(beam.places.size()) && place < structure_.vertices()) continue; // of a bar
+		if (place >= structure_.vertices() + int(beam.places.size())) break;             // of bonds
 		for (int a = 0; a < Dim && system_->soilUnknown(place) >= 0; ++a)
 			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[place]->node[0], Vec<Dim>::Unit(a), attached_[place]->inCell());
 	}

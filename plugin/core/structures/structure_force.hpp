@@ -28,6 +28,7 @@ private:
 	std::vector<SoilAtVertex> soilAround(const Beginning<Dim>&);
 	void                      lookBesideBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&) const;
 	void                      partAlongBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&);
+	void                      bondAheadOfTips(const Beginning<Dim>&, std::vector<SoilAtVertex>&);
 	std::string               missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>&) const;
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;

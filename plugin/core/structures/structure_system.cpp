@@ -59,7 +59,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 {
 	using Head = typename Reinforcement<Dim>::Head;
 	stations_.resize(structure_.vertices());
-	const int ofBeam = structure_.beam ? int(structure_.beam->places.size()) : 0;
+	const int ofBeam = this->ofBeam();
 	for (int v = 0; v < ofBeam; ++v)
 		stations_[v].isFree = true;
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
@@ -75,6 +75,10 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 			stations_[v].toTheRight = unknowns_;
 			unknowns_ += Dim;
 		}
+	for (std::size_t place = stations_.size() + ofBeam; place < soil.size(); ++place) {
+		bondSoil_.push_back(soil[place].exists ? unknowns_ : -1);
+		if (soil[place].exists) unknowns_ += Dim;
+	}
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
@@ -118,6 +122,7 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 	if constexpr (Dim == 2)
 		for (int v = 0; structure_.beam && v < int(structure_.beam->places.size()); ++v)
 			addBeamSprings(v, soil);
+	if constexpr (Dim == 2) addBonds(soil);
 	forBars([&](Reinforcement<Dim>& bar, int first) {
 		for (std::size_t v = 0; v < bar.places.size() && bar.slips(); ++v) {
 			const Station& station = stations_[first + v];
@@ -180,6 +185,35 @@ template <int Dim> void StructureSystem<Dim>::addSpringsOfSide(int v, int side, 
 	const double pressure = isOne ? length * std::max(0., soil.normalStress) : std::max(0., pressed);
 	const double adhesion = memory.gap[v] > 0 && !isOne ? 0 : length * beam.adhesion;
 	springs_.push_back({ along(t), stiffness, memory.shearForce[v], adhesion + beam.friction * pressure, false, &memory.shearForce[v] });
+}
+
+/// Two springs between the sides of the soil at each integration point ahead of a tip. Where a cut begins to reach so far
+/// they take over the stress that is in the soil.
+template <int Dim> void StructureSystem<Dim>::addBonds(const std::vector<SoilAtVertex>& soil)
+{
+	for (int i = 0; i < 2 * bondsOfTip && !bondSoil_.empty(); ++i) {
+		const int           left = bondSoil_[2 * i], right = bondSoil_[2 * i + 1], end = i / bondsOfTip;
+		const SoilAtVertex& here = soil[stations_.size() + ofBeam() + 2 * i];
+		Beam&               beam = *structure_.beam;
+		TipBond&            bond = beam.bonds[end][i % bondsOfTip];
+		if (left < 0) {
+			bond = {};
+			continue;
+		}
+		if (!bond.isActive) bond = { true, here.normalStress, here.shearStress };
+		const Vec<2> t         = beam.tangentAt(end == 0 ? 0 : ofBeam() - 1), n(-t[1], t[0]);
+		const double stiffness = beam.stiffness * here.young / here.cellSize * here.area;
+		const auto   across    = [&](const Vec<2>& e) {
+                        LinearForm form;
+                        for (int a = 0; a < 2; ++a) {
+                                form.add(right + a, e[a]);
+                                form.add(left + a, -e[a]);
+                        }
+                        return form;
+		};
+		springs_.push_back({ across(n), stiffness, here.area * bond.pressure, Beam::inf, false, &bond.pressure, nullptr, here.area });
+		springs_.push_back({ across(t), stiffness, here.area * bond.shear, Beam::inf, false, &bond.shear, nullptr, here.area });
+	}
 }
 
 template <int Dim> LinearForm StructureSystem<Dim>::component(const Station& station, int axis) const
@@ -465,7 +499,7 @@ template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
 	for (const Spring& spring : springs_) {
 		const double trial = spring.force + spring.stiffness * spring.form.at(x);
 		const double force = springEnergy(trial, spring.stiffness, spring.limit, spring.oneSided).gradient[0];
-		*spring.memory     = force;
+		*spring.memory     = force / spring.area;
 		if (spring.gap) *spring.gap = spring.oneSided && trial < 0 ? -trial / spring.stiffness : 0;
 	}
 	forBars([&](Reinforcement<Dim>& bar, int first) { commitBar(bar, first, x); });

@@ -13,6 +13,7 @@ struct SoilAtVertex {
 	double shearStress  = 0; ///< on what is to the left of the line, from what is to its right, along it [Pa]
 	double young        = 0; ///< [Pa]
 	double cellSize     = 1; ///< [m]
+	double area         = 0; ///< of a bond [m], around an axis [m2]
 };
 
 /// Unknowns are the displacements of the soil at the vertices that have some, Dim each, and then those of the structure
@@ -21,7 +22,8 @@ struct SoilAtVertex {
 template <int Dim> class StructureSystem {
 public:
 	/// The structure must outlive it; the soil by vertex, those of the beam first. Behind them all, by vertex of
-	/// the beam, is the soil to its right where that is another body than that to its left; it may be missing.
+	/// the beam, is the soil to its right where that is another body than that to its left; then, by bond ahead of its first and of its last
+	/// vertex, the soil to the left and to the right; these may be missing.
 	StructureSystem(Structure<Dim>&, const std::vector<SoilAtVertex>&);
 
 	int  soilUnknowns() const { return soilUnknowns_; }
@@ -29,8 +31,9 @@ public:
 	/// First unknown of the soil, numbered as it is given; -1: it has none.
 	int soilUnknown(int place) const
 	{
-		const int right = place - int(stations_.size());
-		return right < 0 ? stations_[place].soil : stations_[right].toTheRight;
+		const int right = place - int(stations_.size()), bond = right - ofBeam();
+		if (right < 0) return stations_[place].soil;
+		return bond < 0 ? stations_[right].toTheRight : bondSoil_[bond];
 	}
 	/// Pairs of vertices that a piece without unknowns of its own joins, each once, with the vertex itself.
 	std::vector<std::pair<int, int>> joinedVertices() const;
@@ -67,7 +70,8 @@ private:
 		double     stiffness, force, limit; ///< force: as the step begins
 		bool       oneSided;                ///< a force that cannot be negative, without memory of what it would have been
 		double*    memory;
-		double*    gap = nullptr;
+		double*    gap  = nullptr;
+		double     area = 1; ///< that the force is divided by to be remembered
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
@@ -75,6 +79,7 @@ private:
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);
 	void                            addBeamSprings(int vertex, const std::vector<SoilAtVertex>&);
+	void                            addBonds(const std::vector<SoilAtVertex>&);
 	void                            addSpringsOfSide(int vertex, int side, const SoilAtVertex&, bool isParted);
 	std::array<LinearForm, 2 * Dim> ends(int first, int second) const;
 	LinearForm                      component(const Station&, int axis) const;
@@ -90,9 +95,11 @@ private:
 	Eigen::VectorXd                 direction(const EnergySum&) const;
 	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;
 
+	int ofBeam() const { return structure_.beam ? int(structure_.beam->places.size()) : 0; }
+
 	template <class F> void forBars(F&& f) const
 	{
-		int first = structure_.beam ? int(structure_.beam->places.size()) : 0;
+		int first = ofBeam();
 		for (auto& bar : structure_.bars) {
 			f(bar, first);
 			first += int(bar.places.size());
@@ -102,6 +109,7 @@ private:
 	Structure<Dim>&      structure_;
 	std::vector<Station> stations_;
 	std::vector<Spring>  springs_;
+	std::vector<int>     bondSoil_; ///< first unknowns of the soil to the left and right, by bond
 	int                  soilUnknowns_ = 0, unknowns_ = 0;
 };
 

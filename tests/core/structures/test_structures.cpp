@@ -580,19 +580,19 @@ namespace {
 		}
 	};
 
-	/// Down to the line of the grid that is nearest to its foot, and only points beside it, to its right, are in
-	/// another layer.
-	TEST(PartedSoil, IsPartedDownToTheTip)
+	/// The cut ends half a cell to one and a half cells beyond the foot, wherever that is in its cell, and only points
+	/// beside it, to its right, are in another layer.
+	TEST(PartedSoil, IsPartedBeyondTheTip)
 	{
 		for (const double foot : { 0.8, 1., 1.2 }) {
 			const PartedGround ground({ 1.5, 2 }, { 1.5, foot });
 			ASSERT_TRUE(ground.model.grid.parting);
 			const auto isOwn = [&](int x, int y) { return ground.model.grid.parting->isOwn(Grid<2>::key({ x, y }, 0, 1)); };
-			EXPECT_TRUE(isOwn(3, 3) && isOwn(3, 4));
-			EXPECT_FALSE(isOwn(3, 2) || isOwn(2, 3) || isOwn(4, 3));
+			EXPECT_TRUE(isOwn(3, 2) && isOwn(3, 3) && isOwn(3, 4));
+			EXPECT_FALSE(isOwn(3, 1) || isOwn(2, 3) || isOwn(4, 3));
 			for (std::size_t p = 0; p < ground.cloud.size(); ++p) {
 				const Vec<2>& x = ground.cloud.position[p];
-				EXPECT_EQ(ground.cloud.layer[p], x[0] < 1.5 && x[0] > 0.75 && x[1] > 0.75) << x.transpose();
+				EXPECT_EQ(ground.cloud.layer[p], x[0] < 1.5 && x[0] > 0.75 && x[1] > 0.25) << x.transpose();
 			}
 		}
 		EXPECT_FALSE(PartedGround({ 0.5, 2 }, { 2.5, 2 }).model.grid.parting) << "there is soil on one side only";

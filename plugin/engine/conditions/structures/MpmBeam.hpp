@@ -29,6 +29,7 @@ public:
 	vector<Vector3r> vertices;
 	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures, waterPressures;
 	vector<Real>     lengths, radii, slopes, elongations, bends, gaps, normals, shears, stuck;
+	vector<Vector3r> bonds; // by integration point ahead of the head and the foot: whether it is active, pressure and shear stress [Pa]
 
 	YADE_API_NAME(MpmBeam)
 	static const char* doc()
@@ -108,6 +109,7 @@ public:
 		v("normals", &B::normals, hidden, "", AnyValue());
 		v("shears", &B::shears, hidden, "", AnyValue());
 		v("stuck", &B::stuck, hidden, "", AnyValue());
+		v("bonds", &B::bonds, hidden, "", AnyValue());
 	}
 
 	// The attributes must go together, too.

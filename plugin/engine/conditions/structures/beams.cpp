@@ -34,6 +34,8 @@ namespace {
 			beam.sides[side] = { part(from.normals), part(from.gaps), part(from.shears) };
 		}
 		beam.isStuck.assign(from.stuck.begin(), from.stuck.end());
+		for (size_t i = 0; i < from.bonds.size(); ++i)
+			beam.bonds[i / gimpm::bondsOfTip][i % gimpm::bondsOfTip] = { from.bonds[i][0] != 0, from.bonds[i][1], from.bonds[i][2] };
 		beam.axialForce = from.axialForces;
 		beam.shearForce = from.shearForces;
 		for (size_t i = 0; i < beam.length0.size(); ++i)
@@ -95,6 +97,10 @@ namespace {
 		to.slopes           = beam.slope0;
 		to.elongations      = beam.elongation;
 		to.stuck.assign(beam.isStuck.begin(), beam.isStuck.end());
+		to.bonds.clear();
+		for (const auto& tip : beam.bonds)
+			for (const gimpm::TipBond& bond : tip)
+				to.bonds.push_back(Vector3r(bond.isActive, bond.pressure, bond.shear));
 		to.gaps.clear(), to.normals.clear(), to.shears.clear();
 		for (const auto& side : beam.sides) {
 			to.normals.insert(to.normals.end(), side.normalForce.begin(), side.normalForce.end());
