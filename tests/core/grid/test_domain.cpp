@@ -127,7 +127,7 @@ namespace {
 	{
 		const Vec<2> half = domainOf<2>(F, Vec<2>::Constant(0.25), rule).cwiseMin(0.5);
 		double       most = 0;
-		for (const Vec<2> node : { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(0, 1), Vec<2>(1, 1) }) {
+		for (const Vec<2>& node : { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(0, 1), Vec<2>(1, 1) }) {
 			Vec<2> force = Vec<2>::Zero();
 			for (const Vec<2>& x : latticePoints(F)) {
 				Vec<2> value, slope;
