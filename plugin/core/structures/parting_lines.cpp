@@ -21,8 +21,8 @@ bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& gri
 	return !areFarFromMaterial<2>({ place }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
-/// A tip by so much that the cut ends half a cell to one and a half cells beyond it; another end out of the cells around
-/// it.
+/// A tip by so much that the cut ends half a cell to one and a half cells beyond it; another end out of the cells
+/// around it.
 PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	constexpr double ofTip = 1.5, ofEnd = 1.5;

@@ -73,8 +73,8 @@ struct BeamSide {
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
 };
 
-/// Stress between the two sides of the soil ahead of a tip, at one integration point of the bond that keeps them together
-/// (StructureForce).
+/// Stress between the two sides of the soil ahead of a tip, at one integration point of the bond that keeps them
+/// together (StructureForce).
 struct TipBond {
 	bool   isActive = false; ///< the cut reaches so far
 	double pressure = 0;     ///< normal stress, pressure positive [Pa]
@@ -115,7 +115,8 @@ struct Beam {
 	int layer = 0;
 	/// In this step: it has soil on both of its sides, and parts it or does not.
 	bool isBetween = false;
-	/// In this step: its first and its last vertex are tips of a cut, which goes on beyond them (parting_lines.hpp).
+	/// In this step: its first and its last vertex are tips of a cut, which goes on beyond them
+	/// (parting_lines.hpp).
 	std::array<bool, 2> isTip {};
 
 	/// As the step begins.

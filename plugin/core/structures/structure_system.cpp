@@ -54,17 +54,10 @@ template <int Dim> StructureSystem<Dim>::StructureSystem(Structure<Dim>& structu
 	addSprings(soil);
 }
 
-/// The beam's vertices come first, of which the heads of bars may be copies.
-template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVertex>& soil)
+/// Displacements of the soil at vertices, to the right of the beam, and on the two sides of bonds.
+template <int Dim> void StructureSystem<Dim>::numberSoil(const std::vector<SoilAtVertex>& soil)
 {
-	using Head = typename Reinforcement<Dim>::Head;
-	stations_.resize(structure_.vertices());
 	const int ofBeam = this->ofBeam();
-	for (int v = 0; v < ofBeam; ++v)
-		stations_[v].isFree = true;
-	forBars([&](const Reinforcement<Dim>& bar, int first) {
-		if (bar.head == Head::pulled) stations_[first].moves = false;
-	});
 	for (int v = 0; v < int(stations_.size()); ++v)
 		if (soil[v].exists && stations_[v].moves && !isSecondOfRing(v)) {
 			stations_[v].soil = unknowns_;
@@ -79,6 +72,20 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 		bondSoil_.push_back(soil[place].exists ? unknowns_ : -1);
 		if (soil[place].exists) unknowns_ += Dim;
 	}
+}
+
+/// The beam's vertices come first, of which the heads of bars may be copies.
+template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVertex>& soil)
+{
+	using Head = typename Reinforcement<Dim>::Head;
+	stations_.resize(structure_.vertices());
+	const int ofBeam = this->ofBeam();
+	for (int v = 0; v < ofBeam; ++v)
+		stations_[v].isFree = true;
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
+		if (bar.head == Head::pulled) stations_[first].moves = false;
+	});
+	numberSoil(soil);
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
@@ -187,8 +194,8 @@ template <int Dim> void StructureSystem<Dim>::addSpringsOfSide(int v, int side, 
 	springs_.push_back({ along(t), stiffness, memory.shearForce[v], adhesion + beam.friction * pressure, false, &memory.shearForce[v] });
 }
 
-/// Two springs between the sides of the soil at each integration point ahead of a tip. Where a cut begins to reach so far
-/// they take over the stress that is in the soil.
+/// Two springs between the sides of the soil at each integration point ahead of a tip. Where a cut begins to reach
+/// so far they take over the stress that is in the soil.
 template <int Dim> void StructureSystem<Dim>::addBonds(const std::vector<SoilAtVertex>& soil)
 {
 	for (int i = 0; i < 2 * bondsOfTip && !bondSoil_.empty(); ++i) {

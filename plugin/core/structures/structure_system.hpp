@@ -22,8 +22,8 @@ struct SoilAtVertex {
 template <int Dim> class StructureSystem {
 public:
 	/// The structure must outlive it; the soil by vertex, those of the beam first. Behind them all, by vertex of
-	/// the beam, is the soil to its right where that is another body than that to its left; then, by bond ahead of its first and of its last
-	/// vertex, the soil to the left and to the right; these may be missing.
+	/// the beam, is the soil to its right where that is another body than that to its left; then, by bond ahead
+	/// of its first and of its last vertex, the soil to the left and to the right; these may be missing.
 	StructureSystem(Structure<Dim>&, const std::vector<SoilAtVertex>&);
 
 	int  soilUnknowns() const { return soilUnknowns_; }
@@ -75,6 +75,7 @@ private:
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
+	void                            numberSoil(const std::vector<SoilAtVertex>&);
 	bool                            isSecondOfRing(int vertex) const;
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);

@@ -580,8 +580,8 @@ namespace {
 		}
 	};
 
-	/// The cut ends half a cell to one and a half cells beyond the foot, wherever that is in its cell, and only points
-	/// beside it, to its right, are in another layer.
+	/// The cut ends half a cell to one and a half cells beyond the foot, wherever that is in its cell, and only
+	/// points beside it, to its right, are in another layer.
 	TEST(PartedSoil, IsPartedBeyondTheTip)
 	{
 		for (const double foot : { 0.8, 1., 1.2 }) {
