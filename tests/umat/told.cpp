@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// User materials by Abaqus' interface, of the tests. The first is elastic, counts what it is told, and has no answer to
-// another name of the material; the second ends the program. Constants of the first: Young's modulus, Poisson's ratio,
-// and whether its increments are those of rates times DTIME.
+// User materials by Abaqus' interface, for the tests. The first is elastic, counts what it is told, and has no answer
+// for a material that is not named sand or soil; the second ends the program. Constants of the first: Young's modulus,
+// Poisson's ratio, and whether its increments are those of rates times DTIME.
 #include <cstdlib>
 #include <cstring>
 
@@ -12,7 +12,7 @@ extern "C" void umat_(
         const double*, const int*, const int*, const int*, const int*, const int* step, const int* number, int)
 {
 	const double E = properties[0], nu = properties[1], lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), G = E / (2 * (1 + nu));
-	if (std::strncmp(name, "SAND ", 5) != 0) *shorter = 0.5;
+	if (std::strncmp(name, "SAND ", 5) != 0 && std::strncmp(name, "SOIL ", 5) != 0) *shorter = 0.5;
 	if (time[1] == 0) state[0] = 0;
 	if (*step == 1 && *number == 1) state[1] = 0;
 	state[0] += 1, state[1] += 1;

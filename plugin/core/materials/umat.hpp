@@ -18,8 +18,8 @@ using Umat = void (*)(
 
 class UmatDoor : public UserDoor {
 public:
-	/// `first`: values of its state variables. `oneAtATime`, if any, lets only one thread call it at a time. `material`:
-	/// name that it is told; `function`: name for the message where it ends the program.
+	/// `first`: values of its state variables. `oneAtATime`, if any, lets only one thread call it at a time.
+	/// `material`: name that it is told; `function`: name for the message where it ends the program.
 	UmatDoor(
 	        Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime,
 	        const std::string& material = "", std::string function = "umat_");

@@ -440,7 +440,7 @@ namespace {
 		}
 	}
 
-	/// Of a bar that is pulled more in the step, and of a beam that gets its loads and shrinks in it.
+	/// A bar that is pulled more in the step, and a beam that gets its loads and shrinks in it.
 	TYPED_TEST(Structures, ForcesAtTheBeginningAreThoseOfTheLoadsOfThen)
 	{
 		constexpr int Dim         = TypeParam::value;

@@ -34,8 +34,8 @@ namespace {
 		return members;
 	}
 
-	// Inertia in space. In the plane it is about z, along which the own axes of a clump, those of its inertia in space,
-	// need not lie.
+	// Inertia in space. In the plane it is about z, along which the own axes of a clump, those of its inertia in
+	// space, need not lie.
 	template <int Dim> Matrix3r alongAxes(const Se3r& at, const Vector3r& inertia)
 	{
 		if (Dim == 2) return inertia.asDiagonal();

@@ -101,8 +101,8 @@ namespace {
 		}
 	}
 
-	// A law of MFront looks for a file of its name in the working folder when it is first called, and takes what it calls
-	// parameters from there.
+	// A law of MFront looks for a file of its name in the working folder when it is first called, and takes what it
+	// calls parameters from there.
 	void requireNoParameterFile(const string& function)
 	{
 		string law = function;
