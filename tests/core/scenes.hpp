@@ -152,7 +152,8 @@ template <int Dim> HeldBox<Dim> wallAbove(const Grid<Dim>& grid, int axis, doubl
 template <int Dim, class Displacement>
 void prescribe(std::vector<HeldBox<Dim>>& boxes, const Grid<Dim>& grid, const Index<Dim>& node, Displacement&& displacement)
 {
-	HeldBox<Dim> box { node, node, {}, displacement(grid.nodePosition(node)) };
+	HeldBox<Dim> box { node, node };
+	box.displacement = displacement(grid.nodePosition(node));
 	box.fixed.fill(true);
 	boxes.push_back(box);
 }
