@@ -209,7 +209,7 @@ namespace {
 				sum += reaction.template head<Dim>();
 			EXPECT_LT(sum.norm(), 1e-9 * size);
 		}
-		EXPECT_GT(report.largestWallOverlap, 1e-3);
+		EXPECT_GT(report.largestWallOverlap, 5e-4);
 	}
 
 	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind) { expectBalance<TypeParam::value>(Hencky(1e3, 0.3)); }

@@ -104,6 +104,7 @@ namespace {
 		Random        random(5);
 		for (int i = 0; i < 5; ++i) {
 			AffineBlock<Dim> block;
+			block.model.domains = DomainRule::stretch; // 90 degrees aside, boxes that tile are others for each angle
 			// a state of strain on the yield surface of the second material, so that the least excess would
 			// yield
 			Mat3       strain = assemble(Vec3(0.2, -0.3, 0.1), random.rotation<Dim>()).full();
