@@ -11,10 +11,10 @@ namespace gimpm {
 template <int Dim> struct HeldBox {
 	Index<Dim>            lower, upper;
 	std::array<bool, Dim> fixed {};
-	bool                  hasHistory   = false;              ///< they move by a history in time (Load::boxMotion)
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
+	bool                  hasHistory   = false;              ///< they move by a history in time (Load::boxMotion)
 
 	/// Whether they may move, by `displacement` or a history.
 	bool moves() const { return hasHistory || !displacement.isZero(0); }
