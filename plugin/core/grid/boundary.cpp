@@ -73,19 +73,6 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 	return true;
 }
 
-template <int Dim> bool Boundary<Dim>::lowerFaceHides(const Index<Dim>& cell, int axis, int level, int layer) const
-{
-	if (!lowerFaceIsWall(cell, axis, level, layer)) return false;
-	for (int corner = 0; corner < 1 << Dim; ++corner) {
-		if (corner >> axis & 1) continue;
-		Index<Dim> node = cell;
-		for (int a = 0; a < Dim; ++a)
-			node[a] += (corner >> a & 1) << level;
-		if (const auto* box = holder(node, axis, layer); box && box->moves()) return false;
-	}
-	return true;
-}
-
 template struct HeldBox<2>;
 template struct HeldBox<3>;
 template class Boundary<2>;

@@ -14,10 +14,6 @@ template <int Dim> struct HeldBox {
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
-	bool                  hasHistory   = false;              ///< they move by a history in time (Load::boxMotion)
-
-	/// Whether they may move, by `displacement` or a history.
-	bool moves() const { return hasHistory || !displacement.isZero(0); }
 
 	/// The nodes of a box in space; a coordinate on a node within Grid::onLine() holds it. Infinite limits are
 	/// admitted.
@@ -69,10 +65,6 @@ public:
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
 	/// or in open boxes.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
-
-	/// Whether such a face hides what is beyond it, where domains count as held at rest: not if it moves, as soil
-	/// that moves with it goes past lines of the grid.
-	bool lowerFaceHides(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
 
 private:
 	std::vector<HeldBox<Dim>> boxes_, open_;

@@ -47,8 +47,7 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 			for (int a = 0; a < Dim; ++a) {
 				const int neighbour = c ^ 1 << a;
 				if (!(span >> a & 1) || (reached >> neighbour & 1)) continue;
-				const Index<Dim> face = corner<Dim>(lowest, c | 1 << a) * (1 << level);
-				if (!boundary.lowerFaceHides(face, a, level, layer)) reached |= 1 << neighbour;
+				if (!lowerFaceIsWall(boundary, corner<Dim>(lowest, c | 1 << a), a, level, layer)) reached |= 1 << neighbour;
 			}
 		}
 	}

@@ -132,7 +132,7 @@ std::vector<GhostFace<Dim>> ghostFaces(
 				const int  level = Grid<Dim>::level(lower);
 				Index<Dim> face  = Grid<Dim>::index(lower);
 				face[a] += 1 << level;
-				if (!boundary.lowerFaceHides(grid.first(face), a, level, Grid<Dim>::layer(cell))) faces.push_back({ a, lower });
+				if (!boundary.lowerFaceIsWall(grid.first(face), a, level, Grid<Dim>::layer(cell))) faces.push_back({ a, lower });
 			});
 	return faces;
 }

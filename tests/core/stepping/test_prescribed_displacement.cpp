@@ -113,31 +113,6 @@ namespace {
 		}
 	}
 
-	/// Held nodes within a free block take it along by half a cell, whatever domains reach past them.
-	TYPED_TEST(PrescribedDisplacement, HeldNodesWithinABodyMoveAllOfIt)
-	{
-		constexpr int    Dim  = TypeParam::value;
-		const Grid<Dim>& grid = this->model.grid;
-		const Vec<Dim>   way = 0.5 * Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1), everywhere = Vec<Dim>::Constant(infinity);
-		for (const double end : { 1., 2., infinity }) {
-			auto     cloud = this->cloud;
-			Vec<Dim> max   = everywhere;
-			max[0]         = end;
-			Vec<Dim> min   = -everywhere;
-			if (end == 1) min[0] = 1;
-			this->model.boundary = Boundary<Dim>({ held<Dim>(grid, min, max, std::string("xyz").substr(0, Dim), way) });
-			for (int step = 1; step <= 5; ++step) {
-				Load<Dim> load;
-				load.factor = { step / 5., 1 / 5. };
-				ASSERT_TRUE(loadStep(cloud, this->model, load, this->solver).converged());
-			}
-			for (std::size_t p = 0; p < cloud.size(); ++p) {
-				EXPECT_LT((cloud.position[p] - this->cloud.position[p] - way).norm(), 1e-9) << end;
-				EXPECT_LT(cloud.stress[p].c.norm(), 1e-3) << end; // E = 1e6
-			}
-		}
-	}
-
 	TYPED_TEST(PrescribedDisplacement, RigidMotionsConverge)
 	{
 		constexpr int Dim = TypeParam::value;
