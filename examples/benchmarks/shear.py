@@ -49,5 +49,5 @@ solver = MpmImplicitEngine(
 O.engines, O.dt = [solver], 1 / options.steps
 for part in range(8):
 	O.run(options.steps // 8, wait=True)
-	stress = solver.reactions[1][:2] @ along / area
+	stress = np.array(solver.reactions[1])[:2] @ along / area
 	print(f'shear {options.shear * (part + 1) / 8:.3g}: tau / c_u = {stress / strength:.3f}, clampedDomains {solver.clampedDomains}', flush=True)

@@ -31,7 +31,8 @@ from options import compared, readOptions
 options = readOptions('Slope failure with a weak layer (Coombs 2023, section 4.2).',
         cellSize=(1., 'h [m]; the load comes in 40/h steps'),
         pointsPerCell=(2, 'material points per cell and axis'),
-        ghostFactor=(1e-2, 'ghost stabilisation; 0 switches it off'))
+        ghostFactor=(1e-2, 'ghost stabilisation; 0 switches it off'),
+        domains=('stretch', "rule of the points' domains: 'stretch', as in the paper, or 'tiling', the default of the engine"))
 h, steps = options.cellSize, round(40 / options.cellSize)
 
 ## the soil, as material points
@@ -51,6 +52,7 @@ O.engines = [
                         MpmBoundary(min=(30, -inf, -inf), fix='x'),
                         MpmBoundary(max=(inf, 0, inf), fix='xy'),
                 ],
+                domains=options.domains,
                 ghost=MpmGhost(factor=options.ghostFactor),
                 newton=MpmNewton(tolerance=1e-6, maxIterations=20, predictor=False, reuseFactor=False),  # as in the paper; with them half the factorisations
                 label='solver',

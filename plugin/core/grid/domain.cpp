@@ -88,10 +88,11 @@ template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F)
 
 template <int Dim> Vec<Dim> tilingDomain(const Mat<Dim>& edges)
 {
-	const double J = edges.determinant();
-	if (!(J > 0)) return Vec<Dim>::Zero();
-	const double mean  = Dim == 2 ? std::sqrt(J) : std::cbrt(J);
-	Mat<Dim>     basis = edges;
+	if (!(edges.determinant() > 0)) return Vec<Dim>::Zero();
+	// A power of two, so that scaled scenes have scaled domains to the last bit.
+	const double unit  = std::ldexp(1., std::ilogb(edges.cwiseAbs().maxCoeff()));
+	Mat<Dim>     basis = edges / unit;
+	const double J = basis.determinant(), mean = Dim == 2 ? std::sqrt(J) : std::cbrt(J);
 	reduceBasis<Dim>(basis);
 	LengthFit<Dim> fit;
 	fit.addLattice(basis, 1 / mean, false);
@@ -100,7 +101,7 @@ template <int Dim> Vec<Dim> tilingDomain(const Mat<Dim>& edges)
 		reduceBasis<3>(reciprocal);
 		fit.addLattice(reciprocal, mean, true);
 	}
-	return mean * fit.solution();
+	return unit * mean * fit.solution();
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

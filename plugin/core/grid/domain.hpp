@@ -25,8 +25,8 @@ template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F);
 ///   m = (|v|^2 - v_a^2) J^(-2/Dim) (1 + 4 (q - 1)^2 / q),   q = v_a^2 J^(-2/Dim);
 /// of the reciprocal lattice in reciprocal lengths, q inverted. The half lengths are the weighted means by axis, and
 /// then the least-squares fit to their logarithms whose sum is ln J. Exact for rotations by multiples of 90 degrees,
-/// stretches along the axes, and then simple shear of any size along an axis of the grid, of boxes that are at most three
-/// times as long as wide.
+/// stretches along the axes, and then simple shear of any size along an axis of the grid, of boxes that are at most
+/// three times as long as wide.
 template <int Dim> Vec<Dim> tilingDomain(const Mat<Dim>& edges);
 
 /// Half lengths [m] that a rule gives a point with deformation gradient F and initial half lengths.

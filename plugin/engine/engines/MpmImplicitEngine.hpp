@@ -52,8 +52,8 @@ public:
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
 		v("domains", &E::domains, 0,
-		  "Rule by which the boxes of sheared points deform: 'tiling', of the points' volume and without overlap, or 'stretch', by the diagonal of U "
-		  "(Coombs 2023), too weak in shear. Theory, section 3.",
+		  "Rule by which boxes of points deform: 'tiling', of the points' volume, or 'stretch', by the diagonal of U (Coombs 2023), which is too weak in "
+		  "shear.",
 		  oneOf("tiling", "stretch"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		v("pressureRelaxation", &E::pressureRelaxation, 0,

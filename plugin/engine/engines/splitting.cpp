@@ -49,24 +49,25 @@ namespace {
 			const Real           limit = margin * limitOf(point);
 			const Vector3r       size  = grown(point);
 			if (size.template head<Dim>().maxCoeff() <= limit) return false;
-			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size) : -1;
+			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size, limit) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
 			if (most > 0 && point.state->splits >= mostOf(point) && result.exhausted < 0) result.exhausted = point.id;
 			return false;
 		}
 
-		// The initial edge whose halving leaves the shortest domain, of those across which the point can be split; -1 if
-		// none shortens it. A sheared or turned domain is not as long along an axis as the edge that was there at first.
-		int axisOf(const MaterialPoint& point, const Vector3r& size) const
+		// The initial edge whose halving leaves the least of the domain beyond the limit, of those across which the
+		// point can be split; -1 if none does. Sheared and turned domains are not as long as edges were at first.
+		int axisOf(const MaterialPoint& point, const Vector3r& size, Real limit) const
 		{
-			int  best  = -1;
-			Real least = size.template head<Dim>().maxCoeff() * (1 - 1e-9);
+			const auto excess = [&](const Vector3r& half) { return (half.template head<Dim>().array() - limit).cwiseMax(0).sum(); };
+			int        best   = -1;
+			Real       least  = excess(size) * (1 - 1e-9);
 			for (int a = 0; a < Dim; ++a) {
 				Vector3r half = point.shape->halfSize0;
 				half[a] /= 2;
-				const Real longest = grownFrom(half, point).template head<Dim>().maxCoeff();
-				if (longest < least && isFree(point, a)) best = a, least = longest;
+				const Real left = excess(grownFrom(half, point));
+				if (left < least && isFree(point, a)) best = a, least = left;
 			}
 			return best;
 		}

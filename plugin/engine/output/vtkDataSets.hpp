@@ -14,7 +14,8 @@ namespace yade {
 
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
-// The domain of each material point, in the order given, with its fields. `rule`: by which the domains deform; none: they do not.
+// The domain of each material point, in the order given, with its fields. `rule`: by which the domains deform; none:
+// they do not.
 // `sectors`: parts into which each is revolved about the axis x = 0, one after the other; vectors and tensors turn with
 // them. 0: the section.
 VtkCells pointDomains(

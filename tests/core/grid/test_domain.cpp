@@ -82,6 +82,16 @@ namespace {
 		}
 	}
 
+	TYPED_TEST(DomainRules, ScalesWithItsLatticeToTheLastBit)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (int i = 0; i < 100; ++i) {
+			const Mat<Dim> F = Mat<Dim>::Identity() + this->random.template matrix<Dim, Dim>(0.4);
+			for (const double scale : { 0.125, 2., 1024. })
+				EXPECT_EQ(Vec<Dim>(scale * this->tiling(F, this->box())), this->tiling(F, scale * this->box()));
+		}
+	}
+
 	TYPED_TEST(DomainRules, ThatIsFlattenedHasNoSizeOrANumber)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -101,7 +111,8 @@ namespace {
 		stretch[0]            = 1.5;
 		for (int i = 0; i < 20; ++i)
 			EXPECT_LT((this->stretched(this->random.template rotation<Dim>() * stretch.asDiagonal()) - stretch).norm(), 1e-14);
-		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C)), det C = 1
+		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C))
+		// with det C = 1
 		const double g = 1.7, root = std::sqrt(4 + g * g);
 		const auto   size = this->stretched(this->shear(0, 1, g));
 		EXPECT_NEAR(size[0], 2 / root, 1e-14);

@@ -106,7 +106,7 @@ O.run(2, wait=True)
 other = mpm.fill(part(10, 12, 2, 3), grid, 2, 'soil')
 for body in other: body.groupMask = 2
 wrong = refused(mpm.stages.place, other, steps=2, solver=engines[0])
-mixed = refused(mpm.histories, [100], label='b', solver=engines[0]), mpm.histories([(11, 1, 0)], label='a', solver=engines[0]).ids.tolist()
+mixed = refused(mpm.histories, [100], label='b', solver=engines[0]), mpm.histories([(2.2, 1, 0)], label='a', solver=engines[0]).ids.tolist()
 print(json.dumps([forces, dug, len(mpm.arrays()['id']), wrong, mixed]))
 ''')
 	forces, dug, left, wrong, (mixed, nearest) = run.result

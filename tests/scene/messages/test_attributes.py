@@ -147,6 +147,7 @@ outOfRange = {
         'MpmNewton.stepTolerance': ['-1e-3'],
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
+        'MpmImplicitEngine.domains': ['"boxes"'],
         'MpmImplicitEngine.fBar': None,
         'MpmImplicitEngine.pressureRelaxation': None,
         'MpmImplicitEngine.nonlocalLength': ['-1.'],

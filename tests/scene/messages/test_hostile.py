@@ -208,7 +208,7 @@ straight = mpm.arrays()
 for copied in deepcopy, copy, lambda e: MpmImplicitEngine(**{k: v for k, v in e.dict().items() if k in settable}):
 	O.loadTmp()
 	engine = O.engines[0]
-	settable = ('grid', 'basis', 'gravity', 'loadCurve', 'gravityCurve', 'boundaries', 'ghost', 'newton', 'loadTime', 'mask', 'label')
+	settable = ('grid', 'basis', 'domains', 'gravity', 'loadCurve', 'gravityCurve', 'boundaries', 'ghost', 'newton', 'loadTime', 'mask', 'label')
 	twin = copied(engine)
 	assert twin is not engine and twin.loadTime == engine.loadTime and twin.report() == {}
 	O.engines = [engine, twin]

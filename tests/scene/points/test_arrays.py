@@ -144,9 +144,15 @@ for dim, F in (2, F2), (3, F3):
 	before = mpm.arrays()
 	mpm.assign(defGrad=[F] * len(before['id']))
 	after = mpm.arrays()
+	half = after['halfSize'][:, :dim]
+	assert np.abs(half.prod(axis=1) / before['halfSize'][:, :dim].prod(axis=1) / np.linalg.det(F) - 1).max() < 1e-12
+	O.engines = [MpmImplicitEngine(grid=MpmGrid(cellSize=1, dim=dim), domains='stretch')]
+	mpm.assign(defGrad=[F] * len(before['id']))
+	after = mpm.arrays()
 	squares, axes = np.linalg.eigh(F.T @ F)
 	stretch = np.diag(axes * squares**0.5 @ axes.T) # of U; one out of the plane
-	assert np.abs(after['halfSize'] / (before['halfSize'] * stretch) - 1).max() < 1e-12
+	assert np.abs(after['halfSize'] / (before['halfSize'] * stretch) - 1).max() < 1e-12 and np.abs(after['halfSize'][:, :dim] - half).max() > 1e-3
+	O.engines = []
 	assert (after['halfSize0'] == before['halfSize0']).all() and (after['halfSize'][:, 2] == before['halfSize'][:, 2]).all() == (dim == 2)
 	mpm.assign(defGrad=[np.eye(3)] * len(before['id']))
 	assert (mpm.arrays()['halfSize'] == before['halfSize']).all()
