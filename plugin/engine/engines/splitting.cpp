@@ -34,11 +34,9 @@ namespace {
 
 	private:
 		// Half lengths of the domain as the step would have left them without a limit.
-		Vector3r grown(const MaterialPoint& point) const { return grownFrom(point.shape->halfSize0, point); }
-
-		Vector3r grownFrom(const Vector3r& halfSize0, const MaterialPoint& point) const
+		Vector3r grown(const MaterialPoint& point) const
 		{
-			Vector3r size = stretched<Dim>(halfSize0, point.state->defGrad, job.model.domains);
+			Vector3r size = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, job.model.domains);
 			if (isRing()) size[0] = std::min(size[0], point.state->pos[0]);
 			return size;
 		}
@@ -49,25 +47,23 @@ namespace {
 			const Real           limit = margin * limitOf(point);
 			const Vector3r       size  = grown(point);
 			if (size.template head<Dim>().maxCoeff() <= limit) return false;
-			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size, limit) : -1;
+			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
 			if (most > 0 && point.state->splits >= mostOf(point) && result.exhausted < 0) result.exhausted = point.id;
 			return false;
 		}
 
-		// The initial edge whose halving leaves the least of the domain beyond the limit, of those across which the
-		// point can be split; -1 if none does. Sheared and turned domains are not as long as edges were at first.
-		int axisOf(const MaterialPoint& point, const Vector3r& size, Real limit) const
+		// The initial edge that goes farthest along the axis on which the domain is longest, of those across which
+		// the point can be split; none: -1.
+		int axisOf(const MaterialPoint& point, const Vector3r& size) const
 		{
-			const auto excess = [&](const Vector3r& half) { return (half.template head<Dim>().array() - limit).cwiseMax(0).sum(); };
-			int        best   = -1;
-			Real       least  = excess(size) * (1 - 1e-9);
+			int longest = 0, best = -1;
+			size.template head<Dim>().maxCoeff(&longest);
+			Real most = 0;
 			for (int a = 0; a < Dim; ++a) {
-				Vector3r half = point.shape->halfSize0;
-				half[a] /= 2;
-				const Real left = excess(grownFrom(half, point));
-				if (left < least && isFree(point, a)) best = a, least = left;
+				const Real along = std::abs(point.state->defGrad(longest, a)) * point.shape->halfSize0[a];
+				if (along > most && isFree(point, a)) best = a, most = along;
 			}
 			return best;
 		}

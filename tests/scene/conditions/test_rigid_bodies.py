@@ -367,7 +367,7 @@ def turned(engine, R=0.4, h=0.1, strength=2e4, deep=0.04, turn=0.4, **settings):
 	grid = MpmGrid(cellSize=h)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((-1, -0.6, -1), (1, 0, 1)), grid, 2, 'soil'))
 	wheel = add(utils.sphere((0, R, 0), R, material='rigid', fixed=True), (0, -0.5, 0))
-	contact = MpmContact(friction=atan(5), adhesion=strength, stiffness=10)
+	contact = MpmContact(friction=atan(5), adhesion=strength, stiffness=5)
 	held = [MpmBoundary(max=(inf, -0.6, inf), fix='xy'), MpmBoundary(max=(-1, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
 	O.engines = [engine(grid=grid, boundaries=held, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0, **settings)]
 	O.dt = deep / 0.5 / 4
