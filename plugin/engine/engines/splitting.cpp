@@ -54,8 +54,8 @@ namespace {
 			return false;
 		}
 
-		// The initial edge that goes farthest along the axis on which the domain is longest, of those across which
-		// the point can be split; none: -1.
+		// The initial edge that goes farthest along the axis on which the domain is longest, of those across
+		// which the point can be split; none: -1.
 		int axisOf(const MaterialPoint& point, const Vector3r& size) const
 		{
 			int longest = 0, best = -1;
