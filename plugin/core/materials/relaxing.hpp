@@ -43,7 +43,7 @@ public:
 	bool       isSymmetric() const { return law_.isSymmetric(); }
 	double     young(const TensorState& state) const { return law_.young(state); }
 
-	/// What has flowed until now is in the elastic strain.
+	/// Flow until now is in the elastic strain.
 	Mat3 present(const TensorStep& step) const { return law_.elastic(step).stress; }
 
 	TensorAnswer respond(const TensorStep& step) const

@@ -96,7 +96,7 @@ struct Beam {
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
-	/// By vertex, at the end of the step: water pressure to its left less that to its right [Pa]; null: none.
+	/// Water pressure to the left of each vertex less that to its right, at the end of the step [Pa]; null: none.
 	const std::vector<double>* waterPressure = nullptr;
 	double                     shrinkage     = 1; ///< in this step: lengths without stress after it over those before
 

@@ -154,7 +154,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 	}
 }
 
-/// Where the cut is longer than the beam its two sides are kept together at integration points, so that it matters
+/// The cut is longer than the beam: there its two sides are kept together at integration points, so that it matters
 /// little where a tip is in its cell.
 template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil)
 {
@@ -304,7 +304,7 @@ template <int Dim> void StructureForce<Dim>::spread(const EnergySum& at, const F
 	}
 }
 
-/// With the loads of the beginning: those of the end would act half a step too early.
+/// Takes the loads of the beginning: those of the end would act half a step too early.
 template <int Dim> EnergySum StructureForce<Dim>::asItBegins() const
 {
 	Structure<Dim>             structure = structure_.asItBegins();

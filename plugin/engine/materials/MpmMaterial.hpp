@@ -67,7 +67,7 @@ public:
 	void              requireAdmissible() const override;
 	void              pyHandleCustomCtorArgs(py::tuple&, py::dict& named) override { isDensityGiven = named.has_key("density"); }
 
-	// Whether a script has made it without a density, and has not changed that since.
+	// True if a script has made it without a density, and has not changed that since.
 	bool hasDefaultDensity() const { return !isDensityGiven && density == Material().density; }
 
 	// std::invalid_argument if no step can begin from this state of a point.

@@ -13,7 +13,7 @@ namespace yade {
 // Time of a pressure: in the state reached, or at the end of the coming step.
 enum class When { now, next };
 
-// What a function is still to be asked: about nodes around the cells, and places beside walls, that the water's tables
+// Question to a function about nodes around the cells, and places beside walls, that the water's tables
 // do not have yet.
 template <int Dim> class PressureQuestion : public Question {
 public:

@@ -93,7 +93,7 @@ template <int Dim> void Waters<Dim>::advance(Real from, Real to)
 		if (!walls.empty()) pressOnWalls(from, to);
 }
 
-// Where the pressure of a function jumps at a beam, soil knows that of its own side, and the beam bears the difference.
+// Lets beams bear the jump of a function's pressure across them: soil knows that of its own side.
 template <int Dim> void Waters<Dim>::pressOnWalls(Real from, Real to)
 {
 	for (const WallInWater& wall : walls)

@@ -33,7 +33,7 @@ private:
 	struct Source {
 		shared_ptr<MpmWater> from;
 		gimpm::LoadCurve     curve;
-		// Of a function; null: of a level.
+		// Pressure of a function; null: of a level.
 		std::shared_ptr<const PressureInTime<Dim>> given;
 		int                                        axis; // of gravity
 		Real                                       up, cellSize;
