@@ -21,17 +21,17 @@ bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& gri
 	return !areFarFromMaterial<2>({ place }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
-/// A tip by so much that the cut ends half a cell to one and a half cells beyond it; another end out of the cells
-/// around it.
+/// Extends a beam beyond its open ends: out of the cells around them, where a cut ends half a cell to one and a half
+/// cells beyond a tip.
 PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	constexpr double ofTip = 1.5, ofEnd = 1.5;
+	constexpr double beyondEnds = 1.5; // [cells]
 	PartingLine      line { beam.places, beam.isClosed, {}, 0 };
 	if (beam.isClosed) return line;
 	for (const int end : { 1, 0 }) {
 		const Vec<2> vertex = end == 0 ? beam.places.front() : beam.places.back(), outwards = beam.outwardsAt(end);
 		const bool   isTip  = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
-		const Vec<2> beyond = vertex + (isTip ? ofTip : ofEnd) * grid.cellSize * outwards;
+		const Vec<2> beyond = vertex + beyondEnds * grid.cellSize * outwards;
 		line.places.insert(end == 0 ? line.places.begin() : line.places.end(), beyond);
 		if (isTip) line.tips.push_back(beyond);
 		beam.isTip[end] = isTip;

@@ -11,8 +11,6 @@ namespace yade {
 namespace {
 	using gimpm::sentence;
 
-	bool isUnmoved(const MaterialPoint& p) { return p.state->pos == p.state->refPos && p.state->defGrad.isIdentity(0); }
-
 	bool isMovedByBoundaries(const Analysis& engine)
 	{
 		const auto all = engine.conditions();
@@ -22,7 +20,7 @@ namespace {
 	template <int Dim> string warningOfNoLoad(const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
 	{
 		const bool isMoving = engine.isDynamic() && std::any_of(points.begin(), points.end(), [](const auto& p) { return !p.state->vel.isZero(0); });
-		const bool isAtRest = std::all_of(points.begin(), points.end(), isUnmoved)
+		const bool isAtRest = std::all_of(points.begin(), points.end(), [](const auto& p) { return p.isUnmoved(); })
 		        && std::all_of(cloud.stress.begin(), cloud.stress.end(), [](const auto& stress) { return stress.c.isZero(0); });
 		if (!engine.gravity.isZero(0) || !cloud.force.empty() || isMoving || !isAtRest || engine.conditions().size() > engine.countOf("boundaries")
 		    || isMovedByBoundaries(engine))
@@ -46,7 +44,7 @@ namespace {
 
 	string warningOfVelocity(const Analysis& engine, const vector<MaterialPoint>& points)
 	{
-		if (engine.isDynamic() || !std::all_of(points.begin(), points.end(), isUnmoved)) return "";
+		if (engine.isDynamic() || !std::all_of(points.begin(), points.end(), [](const auto& p) { return p.isUnmoved(); })) return "";
 		for (const MaterialPoint& p : points)
 			if (!p.state->vel.isZero(0))
 				return sentence(

@@ -140,9 +140,7 @@ namespace {
 	vector<MaterialPoint> newOf(const vector<MaterialPoint>& points, bool areFirst)
 	{
 		vector<MaterialPoint> found;
-		std::copy_if(points.begin(), points.end(), std::back_inserter(found), [&](const MaterialPoint& p) {
-			return areFirst || (p.state->defGrad.isIdentity(0) && p.state->pos == p.state->refPos);
-		});
+		std::copy_if(points.begin(), points.end(), std::back_inserter(found), [&](const MaterialPoint& p) { return areFirst || p.isUnmoved(); });
 		return found;
 	}
 

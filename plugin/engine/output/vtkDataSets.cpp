@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/vtkDataSets.hpp"
 #include "core/grid/mixed_cells.hpp"
-#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/points/stretched.hpp"

@@ -23,6 +23,9 @@ struct MaterialPoint {
 	// std::invalid_argument unless its material admits that a step begins from its state.
 	void requireStart() const;
 
+	// True if it is where it was filled, as it was then.
+	bool isUnmoved() const { return state->pos == state->refPos && state->defGrad.isIdentity(0); }
+
 	// Of its internal variables in the order of its law.
 	Real         internalOf(const gimpm::Law&, size_t k) const;
 	vector<Real> internalsOf(const gimpm::Law&) const;
