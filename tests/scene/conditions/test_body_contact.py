@@ -479,11 +479,19 @@ def two(names=('low', 'up'), between=('low', 'up'), **settings):
 	held = MpmBoundary(max=(inf, 0, inf), fix='xy')
 	O.engines = [MpmImplicitEngine(**dict(dict(grid=grid, gravity=(0, -1, 0), boundaries=[held], contacts=[MpmBodyContact(between=between, friction=0.5)], verbosity=0), **settings))]
 	O.dt = 1
+
+def stack(*pairs, cellSize=2):
+	"""Of three bodies; without a contact of the lower two these stick."""
+	two(names=('low', 'up', 'top'), grid=dict(cellSize=cellSize), contacts=[MpmBodyContact(between=pair.split('-'), friction=0.5) for pair in pairs])
 '''
 refusals = {
         "two(between=('low', 'top')); O.step()": ['contacts[0].between', "'top'", 'low, up'],
         "two(names=(None, None)); O.step()": ['MpmGrid.bodies is empty'],
         "two(names=('low', 'up', 'top'), between=('low', 'up')); O.step()": ["'up'", "'top'", 'no MpmBodyContact between'],
+        "stack('low-up', 'up-top'); O.step()": ["'low'", "'top'", "past 'up'", 'thinner', "MpmBodyContact(between=('low', 'top')"],
+        "stack('low-up', 'up-top', 'low-top'); O.step()": [],
+        "stack('low-up', 'up-top', cellSize=0.5); O.step()": [],
+        "stack('low-top', 'up-top'); O.step()": [],
         "two(grid=dict(period=(2, 0, 0))); O.step()": ['MpmBodyContact', 'period'],
         "two(flow=MpmFlow()); O.step()": ['MpmBodyContact', 'flow'],
         "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface', 'MpmBoundary.body'],

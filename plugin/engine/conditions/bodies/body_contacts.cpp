@@ -2,6 +2,7 @@
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/inertia/motion.hpp"
+#include "engine/conditions/bodies/bodies_past.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include <algorithm>
 #include <set>
@@ -152,6 +153,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	requireNoneBetween(around.points, model);
+	requireNonePast(around.points, model, analysis, layers);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
 		system->bodies.push_back(coreBody(int(b), model.grid));
 	for (const auto& contact : given) {
