@@ -20,6 +20,9 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 /// Soil that gets deeper into a body than this in a step has not been stopped by it, over the size of a cell.
 constexpr double deepest = 0.1;
 
+/// Soil that moves through the grid by less than this part of its slip is at rest: the body slides along it.
+constexpr double leastMotion = 0.05;
+
 /// In the springs of a place on gap and slip [J].
 template <int Dim> double stored(const ContactLaw<Dim>& law, double pressure, double friction)
 {
@@ -237,8 +240,9 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 	places_.push_back(place);
 }
 
-/// What pressed stays pressed, wherever domains are seen now. Where it slides it follows them slowly, so that it does
-/// not creep in; in steps in time that would be work of nobody.
+/// What pressed stays pressed, wherever domains are seen now. Soil that slides through the grid follows its domains
+/// slowly, so that it does not creep in; in steps in time that would be work of nobody. Soil at rest, along which the
+/// body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
 template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
 {
 	const auto& body = system_.bodies[place.body];
@@ -246,7 +250,7 @@ template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<D
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
 	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
-	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.travel / grid_.cellSize);
+	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.creep / grid_.cellSize);
 	place.gap += creeps * std::min(0., seen - place.gap);
 }
 
@@ -439,10 +443,11 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	std::vector<ContactRecord<Dim>> records;
 	settle(d);
 	for (const Place& place : places_) {
-		const Approach<Dim> near  = approach(place, d);
-		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
-		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal,
-		                    place.soil + place.pressed.displacement(d) });
+		const Approach<Dim> near = approach(place, d);
+		const Vec<Dim>      u = place.pressed.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
+		const double        travel = along.norm(), creep = u.norm() > leastMotion * travel ? travel : 0;
+		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, travel, creep, Vec<Dim>::Zero(), near.at.normal,
+		                    place.soil + u });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;

@@ -21,6 +21,7 @@ template <int Dim> struct ContactRecord {
 	double       pressure = 0;                                           ///< normal force [N]
 	double       presence = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
 	double       travel   = 0;                                           ///< how far soil moved along the body in that step [m]
+	double       creep    = 0;                                           ///< the part of it in which soil moves through the grid [m]
 	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
 	Vec<Dim>     place = Vec<Dim>::Zero();                               ///< of the soil at the end of the step [m]
 };

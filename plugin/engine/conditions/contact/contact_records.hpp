@@ -7,25 +7,25 @@ namespace yade {
 // What an MpmContact keeps of a place on the surface of a body that has soil in front of it, as numbers one after the
 // other. Before them all stands a mark; earlier revisions, which kept other numbers, had none, but the id of a point.
 struct ContactRecordOfPlace {
-	static constexpr int  width = 17;
+	static constexpr int  width = 18;
 	static constexpr Real mark  = -width;
 
 	std::int64_t number;
 	int          body; // id
-	Real         gap, pressure, presence, travel;
+	Real         gap, pressure, presence, travel, creep;
 	bool         touches, slips;
 	Vector3r     friction, normal, place;
 
 	static ContactRecordOfPlace from(const Real* x)
 	{
-		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5], x[6] != 0, x[7] != 0, Vector3r::Map(x + 8), Vector3r::Map(x + 11),
-			 Vector3r::Map(x + 14) };
+		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5], x[6], x[7] != 0, x[8] != 0, Vector3r::Map(x + 9), Vector3r::Map(x + 12),
+			 Vector3r::Map(x + 15) };
 	}
 	static bool areIn(const vector<Real>& numbers) { return !numbers.empty() && numbers[0] == mark; }
 	void        appendTo(vector<Real>& numbers) const
 	{
 		if (numbers.empty()) numbers.push_back(mark);
-		for (const Real x : { Real(number), Real(body), gap, pressure, presence, travel, Real(touches), Real(slips) })
+		for (const Real x : { Real(number), Real(body), gap, pressure, presence, travel, creep, Real(touches), Real(slips) })
 			numbers.push_back(x);
 		for (const Vector3r& v : { friction, normal, place })
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);

@@ -25,7 +25,8 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		const auto body = numbers.find(r.body);
 		if (body == numbers.end()) return; // erased
 		const gimpm::Vec<Dim> friction = r.friction.template head<Dim>(), normal = r.normal.template head<Dim>(), place = r.place.template head<Dim>();
-		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.presence, r.travel, friction, normal, place });
+		system->records.push_back(
+		        { body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.presence, r.travel, r.creep, friction, normal, place });
 	});
 }
 
@@ -63,6 +64,7 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			               r.pressure,
 			               r.presence,
 			               r.travel,
+			               r.creep,
 			               r.touches,
 			               r.slips,
 			               inSpace<Dim>(r.friction),
