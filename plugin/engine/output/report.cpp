@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/report.hpp"
+#include "core/grid/coverage.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/messages/failures.hpp"
+#include "engine/points/MaterialPoints.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -21,6 +23,17 @@ namespace {
 		for (const auto& [phase, time] : engine.times)
 			seconds[phase] = time;
 		return seconds;
+	}
+
+	template <int Dim> Real mismatchIn(const Analysis& engine)
+	{
+		std::vector<gimpm::Vec<Dim>> centres, halfLengths;
+		for (const MaterialPoint& point : materialPoints(*engine.ownScene(), engine.mask)) {
+			const Vector3r x    = (point.state->pos - engine.grid->origin) / engine.grid->cellSize,
+			               half = point.shape->halfSize / engine.grid->cellSize;
+			centres.push_back(x.head<Dim>()), halfLengths.push_back(half.head<Dim>());
+		}
+		return gimpm::coverage<Dim>(centres, halfLengths).mean;
 	}
 
 	string axisOf(const Analysis& engine) { return engine.last.worst.axis < 0 ? string() : string(1, "xyz"[engine.last.worst.axis]); }
@@ -82,6 +95,10 @@ namespace {
 		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
 		  "maxSplits).",
 		  nullptr },
+		{ "domainMismatch",
+		  "Mean of |covered part - 1| [-] over the cells within the soil: 0 where the domains of points tile. Beyond 0.05, as after long shear obliquely to the "
+		  "grid, soil is too weak there by up to that part: smaller cells, or maxSplits, help. Of the points of this process.",
+		  [](E e) { return py::object(e.grid->dim == 2 ? mismatchIn<2>(e) : mismatchIn<3>(e)); } },
 		{ "wallOverlap",
 		  "The largest length [m] by which a domain reached behind a wall in the last step: no cell is populated there, and the point's share in nodes behind "
 		  "the wall counts as held.",
