@@ -498,3 +498,25 @@ for step in range(20):
 print(json.dumps(torques))
 ''').result
 	assert max(abs(torque - 1) for torque in torques[8:]) < 0.02, torques
+
+
+def test_half_a_model_bears_half_of_the_whole(yade):
+	"""A narrow block is pressed into clay: rollers in its plane of symmetry stand for the other half."""
+	found = yade(scene + '''
+def force(half, halfWidth, h=0.5):
+	O.reset()
+	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=1800, yieldStress=8e3, label='soil'))
+	O.materials.append(FrictMat(young=1e9, frictionAngle=0.3, label='rigid'))
+	grid, left = MpmGrid(cellSize=h), 0 if half else -3
+	O.bodies.append(mpm.fill(mpm.polygon([(left, 0), (3, 0), (3, 2), (left, 2)]), grid, 2, 'soil'))
+	box(at=(0, 2.3, 0), size=(halfWidth, 0.3, 1), velocity=(0, -0.06, 0))
+	contact = MpmContact(friction=0.3, stiffness=20)
+	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(3, -inf, -inf), fix='x'), MpmBoundary(max=(left, inf, inf), fix='x')]
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, boundaries=held, contacts=[contact], verbosity=0, newton=MpmNewton(minStep=1 / 64))], 1
+	O.run(4, wait=True)
+	return contact.forces[0][1] * (2 if half else 1)
+
+print(json.dumps([(force(True, width), force(False, width)) for width in (0.6, 0.9, 1.1)]))
+''').result
+	for half, whole in found:
+		assert whole > 0 and abs(half / whole - 1) < 0.01, found

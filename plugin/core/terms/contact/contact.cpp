@@ -70,6 +70,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         , cloud_(step.cloud)
         , basis_(step.basis)
         , grid_(step.grid)
+        , dofs_(step.dofs)
         , division_(step.division)
 {
 	system.acting = this;

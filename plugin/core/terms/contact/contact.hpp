@@ -176,6 +176,7 @@ private:
 	const PointCloud<Dim>&                               cloud_;
 	const CloudBasis<Dim>&                               basis_;
 	const Grid<Dim>&                                     grid_;
+	const FreeDofs&                                      dofs_;
 	const Division&                                      division_;
 };
 

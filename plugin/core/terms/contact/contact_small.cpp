@@ -22,17 +22,53 @@ template <int Dim> bool hasSoil(const Attachment<Dim>& place, const Index<Dim>& 
 	return attach(Vec<Dim>(grid.origin + grid.size(place.level) * middle), basis, grid, layer).has_value();
 }
 
-/// Whether soil goes on beside a place along an axis of the grid, for two cells: in its row of cells or in the one
-/// beyond that, as seen along the normal.
+/// Planes of symmetry: rows of nodes that are held across them alone.
+template <int Dim> class Mirrors {
+public:
+	Mirrors(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const FreeDofs& dofs, int layer) : basis_(basis), grid_(grid), dofs_(dofs), layer_(layer)
+	{
+	}
+
+	/// Whether the face of a cell on this side along an axis lies in one.
+	bool has(const Index<Dim>& cell, int level, int axis, int side) const
+	{
+		for (int corner = 0; corner < 1 << Dim; ++corner) {
+			if ((corner >> axis & 1) != (side > 0)) continue;
+			Index<Dim> at = cell;
+			for (int a = 0; a < Dim; ++a)
+				at[a] += corner >> a & 1;
+			const int node = find(basis_.nodes, Grid<Dim>::key(grid_.first(at * (1 << level)), level, layer_));
+			if (node < 0) return false;
+			for (int a = 0; a < Dim; ++a)
+				if ((dofs_.number[Dim * node + a] < 0) != (a == axis)) return false;
+		}
+		return true;
+	}
+
+private:
+	const CloudBasis<Dim>& basis_;
+	const Grid<Dim>&       grid_;
+	const FreeDofs&        dofs_;
+	const int              layer_;
+};
+
+/// Whether soil goes on beside a place along an axis of the grid, for two cells or to a plane of symmetry: in its row
+/// of cells or in the one beyond that, as seen along the normal.
 template <int Dim>
-bool goesOn(const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int side, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+bool goesOn(
+        const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int side, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer,
+        const Mirrors<Dim>& mirrors)
 {
 	Index<Dim> beside = Index<Dim>::Zero(), deeper = beside;
 	int        across;
 	normal.cwiseAbs().maxCoeff(&across);
 	beside[axis] = side, deeper[across] = normal[across] < 0 ? -1 : 1;
 	const auto isSoil = [&](const Index<Dim>& from) {
-		return hasSoil<Dim>(place, from + beside, basis, grid, layer) && hasSoil<Dim>(place, from + 2 * beside, basis, grid, layer);
+		for (int step = 0; step < 2; ++step) {
+			if (mirrors.has(place.cell + from + step * beside, place.level, axis, side)) return true;
+			if (!hasSoil<Dim>(place, from + (step + 1) * beside, basis, grid, layer)) return false;
+		}
+		return true;
 	};
 	return isSoil(Index<Dim>::Zero()) || (across != axis && isSoil(deeper));
 }
@@ -89,16 +125,26 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 	return shares;
 }
 
+/// Half of a body beyond a plane of symmetry has the images of its faces: soil is on either side of it.
+template <int Dim> bool isHalved(const std::vector<PlaceOnFace<Dim>>& places, const std::array<bool, Dim>& isMirrored)
+{
+	return std::any_of(places.begin(), places.end(), [&](const PlaceOnFace<Dim>& place) {
+		int across;
+		place.normal.cwiseAbs().maxCoeff(&across);
+		return isMirrored[across];
+	});
+}
+
 /// By how much each place presses by wider functions, along the axes of the grid: where the whole body is small, by an
 /// edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts over one
 /// anyway.
-template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
+template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize, bool isHalved)
 {
 	const auto kind  = body.shape.kind;
 	double     share = kind == RigidKind::ball && body.thickness() < wideBall * cellSize * (1 - 1e-9);
 	if (kind == RigidKind::sheet) share = shareOf(reachFromBorder(body, body.begin, places) / cellSize);
 	const bool isBlock = kind == RigidKind::block;
-	if (isBlock && body.thickness() > cellSize * (1 + 1e-9)) share = shareOf(reachFromEdge(body, body.begin, places) / cellSize);
+	if (isBlock && body.thickness() > cellSize * (1 + 1e-9) && !isHalved) share = shareOf(reachFromEdge(body, body.begin, places) / cellSize);
 	std::vector<Vec<Dim>> shares;
 	for (const auto& [place, normal] : places) {
 		shares.push_back(isBlock ? sharesOnBlock(body, normal, cellSize) : Vec<Dim>::Zero());
@@ -133,26 +179,36 @@ template <int Dim> void Contact<Dim>::widen(int number)
 	const auto [first, last] = placesOf(number);
 	for (int i = first; i < last; ++i)
 		own.push_back(&places_[i]), at.push_back({ places_[i].soil, back * places_[i].normal });
-	std::vector<Vec<Dim>> shares = sharesOf(body, at, h);
-	if (std::all_of(shares.begin(), shares.end(), [](const Vec<Dim>& share) { return share.isZero(0); })) return;
+	const auto isNone
+	        = [](const std::vector<Vec<Dim>>& all) { return std::all_of(all.begin(), all.end(), [](const Vec<Dim>& share) { return share.isZero(0); }); };
+	std::vector<Vec<Dim>> shares = sharesOf(body, at, h, false);
+	if (isNone(shares)) return;
 	const auto around   = bodiesAround(number);
 	const auto isJoined = [&](int b) {
 		const auto [begin, end] = placesOf(b);
 		return begin < end && system_.bodies[b].shape.kind != RigidKind::plane;
 	};
 	if (std::any_of(around.begin(), around.end(), isJoined)) return;
-	std::array<bool, Dim> isEnd {};
-	for (std::size_t i = 0; i < own.size(); ++i) {
+	std::vector<Index<Dim>> mirrors(own.size(), Index<Dim>::Zero());
+	std::array<bool, Dim>   isEnd {}, isMirrored {};
+	const auto              planesOf = [&](const Place& place) { return Mirrors<Dim>(basis_, grid_, dofs_, int(place.number >> placeBits)); };
+	for (std::size_t i = 0; i < own.size(); ++i)
+		for (int a = 0; a < Dim; ++a)
+			for (const int side : { -1, 1 })
+				if (planesOf(*own[i]).has(own[i]->attached.cell, own[i]->attached.level, a, side)) mirrors[i][a] = side, isMirrored[a] = true;
+	if (isHalved<Dim>(at, isMirrored)) shares = sharesOf(body, at, h, true);
+	for (std::size_t i = 0; i < own.size(); ++i)
 		for (int a = 0; a < Dim; ++a) {
-			const int side = shares[i][a] > 0 ? sideInCell(own[i]->attached, a) : 0, layer = int(own[i]->number >> placeBits);
-			if (side * at[i].normal[a] > -0.3 && side != 0 && !goesOn(own[i]->attached, at[i].normal, a, side, basis_, grid_, layer))
-				isEnd[a] = true;
+			const auto& place = own[i]->attached;
+			const int   side = shares[i][a] > 0 ? sideInCell(place, a) : 0, layer = int(own[i]->number >> placeBits);
+			if (side == 0 || mirrors[i][a] == side || side * at[i].normal[a] <= -0.3) continue;
+			if (!goesOn(place, at[i].normal, a, side, basis_, grid_, layer, planesOf(*own[i]))) isEnd[a] = true;
 		}
-	}
 	for (std::size_t i = 0; i < own.size(); ++i) {
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
-		if (!shares[i].isZero(0)) own[i]->pressed = Footprint<Dim>(own[i]->attached, shares[i], basis_, grid_, int(own[i]->number >> placeBits));
+		const int layer = int(own[i]->number >> placeBits);
+		if (!shares[i].isZero(0)) own[i]->pressed = Footprint<Dim>(own[i]->attached, shares[i], basis_, grid_, layer, mirrors[i]);
 	}
 }
 

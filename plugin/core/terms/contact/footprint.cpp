@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/footprint.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace gimpm {
@@ -27,6 +28,13 @@ AlongAxis spread(int cell, double local, double share)
 	return f;
 }
 
+/// Of a node, if it is beyond a plane of symmetry at the face of a cell on this side; 0: there is none.
+int image(int node, int cell, int mirror)
+{
+	if (mirror < 0) return std::max(node, 2 * cell - node);
+	return mirror > 0 ? std::min(node, 2 * (cell + 1) - node) : node;
+}
+
 } // namespace
 
 template <int Dim> int sideInCell(const Attachment<Dim>& place, int axis)
@@ -37,7 +45,8 @@ template <int Dim> int sideInCell(const Attachment<Dim>& place, int axis)
 }
 
 template <int Dim>
-Footprint<Dim>::Footprint(const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+Footprint<Dim>::Footprint(
+        const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer, const Index<Dim>& mirrors)
         : Footprint(place)
 {
 	std::array<AlongAxis, Dim> along;
@@ -54,7 +63,7 @@ Footprint<Dim>::Footprint(const Attachment<Dim>& place, const Vec<Dim>& shares, 
 			const int n     = wider.nodes++;
 			wider.weight[n] = 1;
 			for (int c = 0; c < Dim; ++c)
-				wider.at[n][c] = along[c].from + i[c], wider.weight[n] *= along[c].weight[i[c]];
+				wider.at[n][c] = image(along[c].from + i[c], place.cell[c], mirrors[c]), wider.weight[n] *= along[c].weight[i[c]];
 			wider.node[n] = find(basis.nodes, Grid<Dim>::key(grid.first(wider.at[n] * (1 << place.level)), place.level, layer));
 			isThere       = wider.node[n] >= 0;
 			for (b = 0; b < Dim && ++i[b] == along[b].count; ++b)

@@ -27,8 +27,11 @@ template <int Dim> struct Footprint {
 	}
 
 	/// `shares` of the splines along each axis, from 0 to 1, where the soil goes on; along others those of the
-	/// cell.
-	Footprint(const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
+	/// cell. `mirrors`: axes along which the lower (-1) or upper (1) face of its cell is a plane of symmetry, where
+	/// nodes beyond are images of those before.
+	Footprint(
+	        const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>&, const Grid<Dim>&, int layer,
+	        const Index<Dim>& mirrors = Index<Dim>::Zero());
 
 	const Index<Dim>& index(int n) const { return at[n]; }
 
