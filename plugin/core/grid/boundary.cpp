@@ -70,7 +70,33 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 			node[a] += (corner >> a & 1) << level;
 		if (!holder(node, axis, layer) && !opening(node)) return false;
 	}
-	return true;
+	return filled_.empty() || !goesAlong(cell, axis, level, layer);
+}
+
+template <int Dim> std::vector<Key> Boundary<Dim>::besideMoving(const std::vector<Key>& cells) const
+{
+	std::vector<Key> beside;
+	for (const Key cell : cells)
+		for (int corner = 0; corner < 1 << Dim; ++corner) {
+			Index<Dim> node = Grid<Dim>::index(cell);
+			for (int a = 0; a < Dim; ++a)
+				node[a] += (corner >> a & 1) << Grid<Dim>::level(cell);
+			const auto holds = [&](const HeldBox<Dim>& b) { return b.moves() && b.isOf(Grid<Dim>::layer(cell)) && b.contains(node); };
+			if (std::none_of(boxes_.begin(), boxes_.end(), holds)) continue;
+			beside.push_back(cell);
+			break;
+		}
+	return beside;
+}
+
+/// With the soil on both sides, or within a box that moves.
+template <int Dim> bool Boundary<Dim>::goesAlong(const Index<Dim>& cell, int axis, int level, int layer) const
+{
+	Index<Dim> below = cell, above = cell + Index<Dim>::Constant(1 << level);
+	below[axis] -= 1 << level;
+	const auto isAround = [&](const HeldBox<Dim>& b) { return b.moves() && b.fixed[axis] && b.isOf(layer) && b.contains(below) && b.contains(above); };
+	if (std::any_of(boxes_.begin(), boxes_.end(), isAround)) return true;
+	return find(filled_, Grid<Dim>::key(cell, level, layer)) >= 0 && find(filled_, Grid<Dim>::key(below, level, layer)) >= 0;
 }
 
 template struct HeldBox<2>;

@@ -14,6 +14,10 @@ template <int Dim> struct HeldBox {
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
+	bool                  hasHistory   = false;              ///< they move by a history in time (Load::boxMotion)
+
+	/// Whether they may move, by `displacement` or a history.
+	bool moves() const { return hasHistory || !displacement.isZero(0); }
 
 	/// The nodes of a box in space; a coordinate on a node within Grid::onLine() holds it. Infinite limits are
 	/// admitted.
@@ -63,11 +67,21 @@ public:
 	const HeldBox<Dim>* opening(const Index<Dim>& node) const;
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
-	/// or in open boxes.
+	/// or in open boxes; not of a face that moves with soil, or nodes of its box, on both sides.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
 
+	/// Cells that a box which moves holds nodes of, among these.
+	std::vector<Key> besideMoving(const std::vector<Key>& cells) const;
+
+	/// Soil on both sides of a face that moves goes along with it, and its domains reach through it. `filled`: cells
+	/// beside moving boxes with middles of points in them.
+	void setFilled(std::vector<Key> filled) { filled_ = std::move(filled); }
+
 private:
+	bool goesAlong(const Index<Dim>& cell, int axis, int level, int layer) const;
+
 	std::vector<HeldBox<Dim>> boxes_, open_;
+	std::vector<Key>          filled_; // sorted
 };
 
 } // namespace gimpm

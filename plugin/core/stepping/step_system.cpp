@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/step_system.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/grid/filled_cells.hpp"
 #include "core/grid/mixed_cells.hpp"
 #include "core/terms/aggregates.hpp"
 #include "core/terms/inertia/inertia.hpp"
@@ -20,12 +21,13 @@ template <int Dim> PointStiffness stiffnessOf(const PointCloud<Dim>& cloud, cons
 }
 
 template <int Dim>
-std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
+std::vector<GhostFace<Dim>> stabilise(
+        const PointStiffness& moduli, const Model<Dim>& model, const Boundary<Dim>& walls, const CloudBasis<Dim>& basis, StepReport& report)
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
-	const auto      boundary = boundaryCells(basis.populatedLeaves(), model.boundary, model.grid);
-	auto            faces    = ghostFaces<Dim>(basis.populatedLeaves(), boundary, model.boundary, model.grid);
+	const auto      boundary = boundaryCells(basis.populatedLeaves(), walls, model.grid);
+	auto            faces    = ghostFaces<Dim>(basis.populatedLeaves(), boundary, walls, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	weighGhostFaces(faces, basis, moduli, model.grid, model.ghost.factor, model.ghost.scaling);
@@ -58,11 +60,11 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& clou
 
 template <int Dim>
 StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
-        : model(m), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
+        : model(m), boundary(amongSoil(m.boundary, cloud, m.grid, m.basis, *m.division)), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis           = cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division);
+		basis           = cloudBasis(cloud, model.grid, model.basis, boundary, *model.division);
 		points          = stepPoints(cloud, model.materials, basis, model.fBar);
 		points.duration = load.duration;
 		// Also for points that others have.
@@ -72,7 +74,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		addPointForces(basis, pointForces(cloud, model, load), external);
 		constraints.template fold<Dim>(map, external);
 	}
-	faces = stabilise(stiffnessOf_, model, basis, report);
+	faces = stabilise(stiffnessOf_, model, boundary, basis, report);
 	const Stopwatch watch(report.times.basis);
 	share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, *model.division);
 	gimpm::complete(share_->knownNodes(), map, external);

@@ -113,6 +113,29 @@ namespace {
 		}
 	}
 
+	/// Held nodes within a free block take it along by half a cell, whatever domains reach past them.
+	TYPED_TEST(PrescribedDisplacement, HeldNodesWithinABodyMoveAllOfIt)
+	{
+		constexpr int    Dim  = TypeParam::value;
+		const Grid<Dim>& grid = this->model.grid;
+		const Vec<Dim>   way = 0.5 * Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1), everywhere = Vec<Dim>::Constant(infinity);
+		for (const auto& [begin, end] : { std::pair(1., 1.), std::pair(-infinity, 1.), std::pair(-infinity, infinity) }) {
+			auto     cloud = this->cloud;
+			Vec<Dim> min = -everywhere, max = everywhere;
+			min[0] = begin, max[0] = end;
+			this->model.boundary = Boundary<Dim>({ held<Dim>(grid, min, max, std::string("xyz").substr(0, Dim), way) });
+			for (int step = 1; step <= 5; ++step) {
+				Load<Dim> load;
+				load.factor = { step / 5., 1 / 5. };
+				ASSERT_TRUE(loadStep(cloud, this->model, load, this->solver).converged());
+			}
+			for (std::size_t p = 0; p < cloud.size(); ++p) {
+				EXPECT_LT((cloud.position[p] - this->cloud.position[p] - way).norm(), 1e-9) << end;
+				EXPECT_LT(cloud.stress[p].c.norm(), 1e-3) << end; // E = 1e6
+			}
+		}
+	}
+
 	TYPED_TEST(PrescribedDisplacement, RigidMotionsConverge)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -17,8 +17,10 @@ template <int Dim> Boundaries<Dim>::Boundaries(const MpmCondition::Group& group,
 template <int Dim> void Boundaries<Dim>::hold(gimpm::Model<Dim>& model)
 {
 	boxes = heldBoxes<Dim>(boundaries, *analysis.grid, model.grid);
-	for (size_t b = 0; b < boundaries.size(); ++b)
-		boxes[b].layer = layerOf(analysis, boundaries[b]->body);
+	for (size_t b = 0; b < boundaries.size(); ++b) {
+		boxes[b].layer      = layerOf(analysis, boundaries[b]->body);
+		boxes[b].hasHistory = boundaries[b]->motion != nullptr;
+	}
 	refuseConflicts(boxes, boundaries);
 	const auto& axis = model.boundary.boxes();
 	boxes.insert(boxes.end(), axis.begin(), axis.end());
