@@ -89,12 +89,14 @@ template <int Dim> std::vector<Key> Boundary<Dim>::besideMoving(const std::vecto
 	return beside;
 }
 
-/// With the soil on both sides, or within a box that moves.
+/// With soil on both sides, or all nodes of a cell on one side in the box that moves.
 template <int Dim> bool Boundary<Dim>::goesAlong(const Index<Dim>& cell, int axis, int level, int layer) const
 {
-	Index<Dim> below = cell, above = cell + Index<Dim>::Constant(1 << level);
-	below[axis] -= 1 << level;
-	const auto isAround = [&](const HeldBox<Dim>& b) { return b.moves() && b.fixed[axis] && b.isOf(layer) && b.contains(below) && b.contains(above); };
+	Index<Dim> below = cell, above = cell + Index<Dim>::Constant(1 << level), upper = above;
+	below[axis] -= 1 << level, upper[axis] = cell[axis];
+	const auto isAround = [&](const HeldBox<Dim>& b) {
+		return b.moves() && b.fixed[axis] && b.isOf(layer) && b.contains(cell) && b.contains(upper) && (b.contains(below) || b.contains(above));
+	};
 	if (std::any_of(boxes_.begin(), boxes_.end(), isAround)) return true;
 	return find(filled_, Grid<Dim>::key(cell, level, layer)) >= 0 && find(filled_, Grid<Dim>::key(below, level, layer)) >= 0;
 }
