@@ -15,7 +15,7 @@ public:
 	{
 		return "Isotropic Hencky elasticity: Kirchhoff stress linear in the logarithmic strain (Coombs 2023, section 2). *young* and *poisson* must be "
 		       "given.\n\n"
-		       "Set first: *poisson* up to 0.3; from 0.45 on MpmImplicitEngine(fBar=True). Page: plugin/docs/theory.md.";
+		       "Set first: *poisson* up to 0.3; from 0.45 on MpmImplicitEngine(fBar=True). Page: plugin/docs/classes/MpmElasticMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

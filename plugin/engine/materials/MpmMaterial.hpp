@@ -25,7 +25,7 @@ public:
 	static const char* doc()
 	{
 		return "Base of the materials of material points. It has no constitutive law itself and is refused when used.\n\n"
-		       "Begin with MpmElasticMat. Page: plugin/docs/theory.md.";
+		       "Begin with MpmElasticMat. Page: plugin/docs/classes/MpmMaterial.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -14,7 +14,7 @@ public:
 		return "Hencky elasticity with Tresca's perfect plasticity and associated flow: undrained clay by its strength in total stress. In plane strain it "
 		       "differs from von Mises' law little, in 3D by up to 15 %.\n\n"
 		       "Set first: *poisson* = 0.49 with MpmImplicitEngine(fBar=True), and *young* of 200 to 1000 *undrainedStrength*. Page: "
-		       "plugin/docs/theory.md.";
+		       "plugin/docs/classes/MpmTrescaMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -17,7 +17,7 @@ public:
 		       "sequence of triangles (three points each) or a gts.Surface for its triangles; mpm.surface finds that of a region.\n\n"
 		       "It has an outer side: on the right of a segment from its first to its second vertex, and where a triangle's vertices are seen to run "
 		       "counterclockwise. So the body is on the left of a line from point to point.\n\n"
-		       "Begin with mpm.surface(region, min=..., max=...). Page: plugin/docs/classes/MpmTraction.md.";
+		       "Begin with mpm.surface(region, min=..., max=...). Page: plugin/docs/classes/MpmSurface.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
