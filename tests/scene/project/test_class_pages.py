@@ -87,3 +87,48 @@ print(json.dumps(classes))
 		empty = 'NaN', "''", '()', 'None'
 		wrong += [f'{name}.{key} is {live[key]}, not {told[key]}' for key in set(live) & set(told) if told[key] != live[key] and not (told[key] == 'required' and live[key] in empty)]
 	assert not wrong
+
+
+def admits(text, value):
+	"""Whether the column "admitted" of a page admits a number; None where it is not about numbers alone."""
+	text = re.sub(r'\(.*?\)', '', text)
+	alternatives = [part.strip() for part in text.split(',')] if re.fullmatch(r'[^,]*(, or (NaN|inf|0))?', text) else [text]
+	main = alternatives[0].removeprefix('or ')
+	others = {part.removeprefix('or ').strip() for part in alternatives[1:]}
+	if str(value) in ('nan', 'inf'): return {'nan': 'NaN', 'inf': 'inf'}[str(value)] in others
+	number = r'(-?\d+(?:\.\d+)?|1/2|pi/2)'
+	limit = lambda word: {'1/2': 0.5, 'pi/2': 1.5707963}.get(word) or float(word)
+	if match := re.fullmatch(rf'(>=?) {number}', main): return value > limit(match[2]) or match[1] == '>=' and value == limit(match[2])
+	if match := re.fullmatch(rf'(from|above|between) {number},? (to|to below|below|and) {number}', main):
+		low, high = limit(match[2]), limit(match[4])
+		return low < value < high or match[1] == 'from' and value == low or match[1] in ('from', 'above') and match[3] == 'to' and value == high
+	return True if main == 'finite' else None
+
+
+def test_pages_admit_what_the_classes_admit(yade):
+	"""Numbers at the ends of what is admitted, where that is told by numbers."""
+	tried = -2., -1., -0.5, 0., 0.25, 0.5, 1., 1.5, 2., float('nan'), float('inf')
+	told = {name: {row[0].strip('`'): [admits(row[3], x) for x in tried] for heading in ('Needed', 'Useful', 'Expert') for row in rowsOf(path.read_text(), heading)} for name, path in pages.items()}
+	run = yade(f'''
+import json
+from math import nan, inf
+from yade import wrapper
+told, tried, found = json.loads({json.dumps(json.dumps(told))}), {tried!r}, []
+checked = 0
+for name, rows in told.items():
+	for key, admitted in rows.items():
+		if admitted[0] is None: continue
+		default = getattr(wrapper, name)().dict()[key]
+		for x, is_admitted in zip(tried, admitted):
+			if isinstance(default, int) and (isinstance(default, bool) or not float(x).is_integer()): continue
+			value = int(x) if isinstance(default, int) else x
+			if not isinstance(default, (int, float)): continue
+			checked += 1
+			try: setattr(getattr(wrapper, name)(), key, value)
+			except ValueError: really = False
+			else: really = True
+			if really != is_admitted: found.append([name, key, str(x), really])
+print(json.dumps([checked, found]))
+''')
+	checked, found = run.result
+	assert not found and checked > 500
