@@ -7,7 +7,7 @@ namespace yade {
 class MpmGhost : public Exposed<MpmGhost, Serializable> {
 public:
 	// Of the mass where nothing is given: bounds the condition number, and takes next to no energy from waves that
-	// three cells can carry (docs/theory.md).
+	// three cells can carry (docs/explanation/time-integration.md).
 	static constexpr Real usualMassFactor = 1e-3, usualExplicitMassFactor = 0.25;
 
 	Real   factor        = 1e-2;

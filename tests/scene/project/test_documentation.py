@@ -105,6 +105,33 @@ def test_the_course_is_numbered_through():
 	assert sections == [*range(sections[0], sections[0] + len(sections))]
 
 
+explanation = root / 'plugin/docs/explanation'
+citation = re.compile(r'((?:de )?[A-Z]\w+(?: \w+)?(?: and [A-Z][\w-]+| et al\.)?)\)? ((?:1[789]|20)\d\d)')
+
+
+@pytest.mark.parametrize('chapter', [page for page in sorted(explanation.glob('*.md')) if page.stem not in ('nomenclature', 'references')], ids=lambda page: page.stem)
+def test_a_chapter_lists_the_sources_that_it_cites(chapter):
+	text = ' '.join(chapter.read_text().split())
+	body, _, listed = text.partition('**References** ([list](references.md)): ')
+	keys = listed.rstrip('.').split('; ')
+	assert keys == sorted(keys, key=str.lower) and all(key in body for key in keys)
+	assert {f'{names} {year}' for names, year in citation.findall(re.sub(r'\((?:figure|section) \d+ of |\bafter |\bof |\bsmall-strain ', '', body))} == set(keys)
+
+
+def test_every_source_is_listed_and_every_listed_source_is_cited():
+	entries = re.findall(r'^- \*\*(.+?)\*\*: ', (explanation / 'references.md').read_text(), re.MULTILINE)
+	assert len(entries) > 40 and len(set(entries)) == len(entries)
+	chapters = ' '.join(page.read_text().partition('**References**')[2] for page in explanation.glob('*.md'))
+	assert not {key for line in re.findall(r'references\.md\)\): (.*)\.$', chapters, re.MULTILINE) for key in line.split('; ')} - set(entries)
+	sources = [path for path in root.rglob('*') if path.suffix in ('.md', '.hpp', '.cpp', '.py') and path != explanation / 'references.md' and not {'build', 'out'} & set(path.relative_to(root).parts)]
+	text = ' '.join(re.sub(r'\s+(?://+ ?)?', ' ', path.read_text()) for path in sources)
+	missing = []
+	for key in entries:
+		name, year = re.match(r'((?:de )?[\w-]+)', key)[1], key[-4:]
+		if not re.search(rf'\b{name}\b[^|;]{{0,60}}\b{year}\b', text): missing.append(key)
+	assert not missing
+
+
 def sectionOf(page, title):
 	return page.partition(f'\n## {title}\n')[2].partition('\n## ')[0]
 

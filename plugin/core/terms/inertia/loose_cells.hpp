@@ -16,7 +16,7 @@ template <int Dim> struct LooseCell {
 };
 
 /// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse
-/// bounds the condition number (docs/theory.md).
+/// bounds the condition number (docs/explanation/time-integration.md).
 constexpr double usualLooseShare = 1e-6;
 
 /// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of

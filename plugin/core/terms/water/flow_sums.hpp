@@ -180,8 +180,9 @@ private:
 			to[b] += factor * row[b];
 	}
 
-	/// With w = grad p and g the present gradients: see the page on theory. Row by row, so that columns are side by
-	/// side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
+	/// With w = grad p and g the present gradients: equation (6.5) of docs/explanation/water.md. Row by row, so
+	/// that columns are side by side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its
+	/// opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, coupled = point.coupling() * V,
