@@ -132,6 +132,13 @@ def test_every_source_is_listed_and_every_listed_source_is_cited():
 	assert not missing
 
 
+def test_the_citation_names_the_newest_release():
+	"""The version that CMake reads from the page of changes, with its date."""
+	version, date = re.search(r'^## ([\d.]+) \((\d{4}-\d\d-\d\d)\)$', (root / 'plugin/docs/changes.md').read_text(), re.MULTILINE).groups()
+	fields = dict(re.findall(r'^([\w-]+): (.+)$', (root / 'plugin/docs/CITATION.cff').read_text(), re.MULTILINE))
+	assert (fields['version'], fields['date-released']) == (version, date) and fields['license'] == 'GPL-2.0-or-later'
+
+
 def sectionOf(page, title):
 	return page.partition(f'\n## {title}\n')[2].partition('\n## ')[0]
 
