@@ -263,6 +263,33 @@ for recipe in json.load(open('recipes.json')):
 	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
 
 
+tutorials = sorted((root / 'plugin/docs/tutorials').glob('*.md'))
+
+
+def test_tutorials_are_numbered_short_and_lead_on():
+	"""Eight, each of at most 700 words besides its script, with a picture and the same last sections; each names the next."""
+	assert [page.name[0] for page in tutorials] == list('12345678')
+	for page, following in zip(tutorials, [*tutorials[1:], None]):
+		text = re.sub(r'```.*?```', '', page.read_text(), flags=re.DOTALL)
+		assert len(text.split()) <= 700 and re.match(rf'# {page.name[0]}\. ', text) and '\n![' in text, page
+		assert re.findall(r'^## (.*)$', text, re.MULTILINE)[-2:] == ['What to expect', 'How accurate is this, and what would better cost?'], page
+		assert not following or 'Next: [' in text and f']({following.name})' in text, page
+
+
+@pytest.mark.parametrize('page', tutorials, ids=lambda page: page.stem)
+def test_the_script_of_a_tutorial_prints_what_its_page_says(yade, page):
+	"""Its blocks are one script. Numbers are those of the page within 2 %."""
+	text = page.read_text()
+	run = yade('\n'.join(re.findall(r'```python\n(.*?)```', text, re.DOTALL)))
+	prose = re.sub(r'```.*?```', '', text, flags=re.DOTALL).partition('## What to expect')[2].partition('\n## ')[0]
+	number = r'-?\d+(?:\.\d+)?'
+	said = re.findall(r'[Pp]rints? `([^`]+)`', prose) + re.findall(r'^ {4}(\S.*)$', prose, re.MULTILINE)
+	assert said, page
+	for line in said:
+		found = re.search('^' + f'({number})'.join(map(re.escape, re.split(number, line))) + '$', run.stdout, re.MULTILINE)
+		assert found and [float(value) for value in found.groups()] == pytest.approx([float(value) for value in re.findall(number, line)], rel=0.02), (line, run.stdout)
+
+
 @pytest.mark.parametrize('page', ['mpm-with-dem', 'implicit-mpm-in-python'])
 def test_scripts_of_the_pages_for_those_who_come_from_elsewhere(yade, page):
 	run = yade(re.search(r'```python\n(.*?)```', (root / f'plugin/docs/{page}.md').read_text(), re.DOTALL)[1] + 'print(O.iter)')
