@@ -67,13 +67,13 @@ public:
 	const HeldBox<Dim>* opening(const Index<Dim>& node) const;
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
-	/// or in open boxes; not of a face that moves with soil, or nodes of its box, on both sides.
+	/// or in open boxes; not of a face that moves with soil on both sides, or with a cell of its box on one.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
 
 	/// Cells that a box which moves holds nodes of, among these.
 	std::vector<Key> besideMoving(const std::vector<Key>& cells) const;
 
-	/// Soil on both sides of a face that moves goes along with it, and its domains reach through it. `filled`: cells
+	/// Soil on both sides of a face that moves goes along with it, and its domains reach through. `filled`: cells
 	/// beside moving boxes with middles of points in them.
 	void setFilled(std::vector<Key> filled) { filled_ = std::move(filled); }
 

@@ -45,6 +45,16 @@ public:
 		return true;
 	}
 
+	/// Along each axis on which side of the cell of a place there is one: 1, -1, or 0 for none.
+	Index<Dim> beside(const Attachment<Dim>& place) const
+	{
+		Index<Dim> sides = Index<Dim>::Zero();
+		for (int a = 0; a < Dim; ++a)
+			for (const int side : { -1, 1 })
+				if (has(place.cell, place.level, a, side)) sides[a] = side;
+		return sides;
+	}
+
 private:
 	const CloudBasis<Dim>& basis_;
 	const Grid<Dim>&       grid_;
@@ -126,13 +136,14 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 }
 
 /// Half of a body beyond a plane of symmetry has the images of its faces: soil is on either side of it.
-template <int Dim> bool isHalved(const std::vector<PlaceOnFace<Dim>>& places, const std::array<bool, Dim>& isMirrored)
+template <int Dim> bool isHalved(const std::vector<PlaceOnFace<Dim>>& places, const std::vector<Index<Dim>>& mirrors)
 {
-	return std::any_of(places.begin(), places.end(), [&](const PlaceOnFace<Dim>& place) {
+	for (const PlaceOnFace<Dim>& place : places) {
 		int across;
 		place.normal.cwiseAbs().maxCoeff(&across);
-		return isMirrored[across];
-	});
+		if (std::any_of(mirrors.begin(), mirrors.end(), [&](const Index<Dim>& sides) { return sides[across] != 0; })) return true;
+	}
+	return false;
 }
 
 /// By how much each place presses by wider functions, along the axes of the grid: where the whole body is small, by an
@@ -179,24 +190,20 @@ template <int Dim> void Contact<Dim>::widen(int number)
 	const auto [first, last] = placesOf(number);
 	for (int i = first; i < last; ++i)
 		own.push_back(&places_[i]), at.push_back({ places_[i].soil, back * places_[i].normal });
-	const auto isNone
-	        = [](const std::vector<Vec<Dim>>& all) { return std::all_of(all.begin(), all.end(), [](const Vec<Dim>& share) { return share.isZero(0); }); };
 	std::vector<Vec<Dim>> shares = sharesOf(body, at, h, false);
-	if (isNone(shares)) return;
+	if (std::all_of(shares.begin(), shares.end(), [](const Vec<Dim>& share) { return share.isZero(0); })) return;
 	const auto around   = bodiesAround(number);
 	const auto isJoined = [&](int b) {
 		const auto [begin, end] = placesOf(b);
 		return begin < end && system_.bodies[b].shape.kind != RigidKind::plane;
 	};
 	if (std::any_of(around.begin(), around.end(), isJoined)) return;
-	std::vector<Index<Dim>> mirrors(own.size(), Index<Dim>::Zero());
-	std::array<bool, Dim>   isEnd {}, isMirrored {};
 	const auto              planesOf = [&](const Place& place) { return Mirrors<Dim>(basis_, grid_, dofs_, int(place.number >> placeBits)); };
-	for (std::size_t i = 0; i < own.size(); ++i)
-		for (int a = 0; a < Dim; ++a)
-			for (const int side : { -1, 1 })
-				if (planesOf(*own[i]).has(own[i]->attached.cell, own[i]->attached.level, a, side)) mirrors[i][a] = side, isMirrored[a] = true;
-	if (isHalved<Dim>(at, isMirrored)) shares = sharesOf(body, at, h, true);
+	std::vector<Index<Dim>> mirrors;
+	for (const Place* place : own)
+		mirrors.push_back(planesOf(*place).beside(place->attached));
+	if (isHalved<Dim>(at, mirrors)) shares = sharesOf(body, at, h, true);
+	std::array<bool, Dim> isEnd {};
 	for (std::size_t i = 0; i < own.size(); ++i)
 		for (int a = 0; a < Dim; ++a) {
 			const auto& place = own[i]->attached;
