@@ -23,7 +23,7 @@
 #pragma GCC visibility pop
 
 namespace {
-// What single functions of Python are for.
+// Defines the single functions of Python.
 void defineHelpers()
 {
 	using namespace yade;

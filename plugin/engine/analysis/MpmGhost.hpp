@@ -6,7 +6,7 @@ namespace yade {
 
 class MpmGhost : public Exposed<MpmGhost, Serializable> {
 public:
-	// Of the mass where nothing is given: bounds the condition number, and takes next to no energy from waves that
+	// Default factors of the ghost mass: bound the condition number, and take next to no energy from waves that
 	// three cells can carry (docs/explanation/time-integration.md).
 	static constexpr Real usualMassFactor = 1e-3, usualExplicitMassFactor = 0.25;
 
@@ -38,16 +38,16 @@ public:
 		v("where", &MpmGhost::where, 0,
 		  "'boundary', the default: alike on all faces of boundary cells; 'aggregates', for sand: on those that tie ill-filled cells to well-filled ones, a hundredth elsewhere.",
 		  oneOf("boundary", "aggregates"));
-		v("threshold", &MpmGhost::threshold, 0, "With where='aggregates', part of a cell [-], from above 0 to 1, below which it is ill-filled.",
+		v("threshold", &MpmGhost::threshold, 0, "Limit with where='aggregates': part of a cell [-], from above 0 to 1, below which it is ill-filled.",
 		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 		v("memory", &MpmGhost::memory, 0,
 		  "Part [-] of the last step's displacements, in the ratio of the loads, of which kinks cost nothing: 0, the default, to 1. For sand: steady flow is not resisted.",
 		  admitting("a number from 0 to 1", [](Real part) { return part >= 0 && part <= 1; }));
 		v("massFactor", &MpmGhost::massFactor, 0,
-		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
+		  "Ghost mass of MpmDynamicEngine [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
 		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 		v("workTolerance", &MpmGhost::workTolerance, 0,
-		  "Of static steps, part of the work [-] that it may take up (*ghostShare*): beyond, the step goes on until stress bears the load, or fails. 1: no limit.",
+		  "Largest part of the work [-] of static steps that it may take up (*ghostShare*): beyond, the step goes on until stress bears the load, or fails. 1: no limit.",
 		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 	}
 };

@@ -38,13 +38,13 @@ public:
 		  "full step.",
 		  atLeast(0));
 		v("acceptUnconverged", &MpmNewton::acceptUnconverged, 0,
-		  "Whether a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "
+		  "True: a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "
 		  "that did so.");
 		v("predictor", &MpmNewton::predictor, 0,
-		  "Whether a step starts from the last displacements, in the ratio of the load increments: the same states to *tolerance*, with fewer solves. "
+		  "True: a step starts from the last displacements, in the ratio of the load increments: the same states to *tolerance*, with fewer solves. "
 		  "False: from zero, as in the paper.");
 		v("reuseFactor", &MpmNewton::reuseFactor, 0,
-		  "Whether a step's last iterations keep the factorised matrix of the one before where that suffices: the same states to *tolerance*, fewer "
+		  "True: a step's last iterations keep the factorised matrix of the one before where that suffices: the same states to *tolerance*, fewer "
 		  "factorisations. False: never, as in the paper.");
 		v("linearSolver", &MpmNewton::linearSolver, 0,
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What the last run of an engine has come to.
+// Results of the last run of an engine.
 #include "core/stepping/report.hpp"
 #include "engine/analysis/last_increment.hpp"
 #include "yade_api/exposed.hpp"
@@ -9,7 +9,7 @@
 
 namespace yade {
 
-// Where a number comes from: begin() as a run begins, take() as a load step of it has been tried.
+// Sources of a number: begin() as a run begins, take() as a load step of it has been tried.
 namespace source {
 	// The last load step that was tried.
 	template <class F> struct Latest {
@@ -55,14 +55,14 @@ struct RunResults {
 	Real             loadFactor  = 0;
 	int              activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
 	int              substeps = 0, cuts = 0, lineSearchTrials = 0, reusedFactors = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0, amgSetups = 0;
-	vector<Real>     lastDisplacements; // of the nodes in the last step, for newton.predictor
+	vector<Real>     lastDisplacements; // displacements of the nodes in the last step, for newton.predictor
 	Real             lastLoadIncrement = 0;
 	Real             stepPart          = 1;
 	vector<Vector3r> reactions;
 	Real             wallOverlap = 0;
 	Real             ghostShare  = std::numeric_limits<Real>::quiet_NaN();
 
-	// Who tells a number besides the attribute of its name.
+	// Output of a number besides the attribute of its name.
 	enum Told { byAttribute, byReport, byReportAndPlot };
 
 	// v(name, member, source, told by, flags, documentation, validator) for each of them. The order is that of
@@ -92,7 +92,7 @@ template <class V> void RunResults::results(V&& v)
 	using namespace source;
 	const AnyValue any;
 	const auto     count = atLeast(0);
-	v("converged", &R::converged, latest(&StepReport::converged), byReport, readonly, "Whether the last step converged.", any);
+	v("converged", &R::converged, latest(&StepReport::converged), byReport, readonly, "True if the last step converged.", any);
 	v("iterations", &R::iterations, sum(&StepReport::iterations), byReportAndPlot, readonly,
 	  "Linear solves of the last run, those of steps that were undone included.", count);
 	v("residual", &R::residual, latest(&StepReport::residual), byReportAndPlot, readonly,
@@ -123,13 +123,13 @@ template <class V> void RunResults::results(V&& v)
 	v("lastLoadIncrement", &R::lastLoadIncrement, Kept(), byAttribute, hidden, "", finite);
 	v("stepPart", &R::stepPart, Kept(), byReport, readonly, "Part of O.dt [-] that the next load step tries, > 0 and <= 1.", part);
 	v("reactions", &R::reactions, reached(&StepReport::reactions), byAttribute, readonly,
-	  "Of each of *boundaries*, the sum of the forces [N] on the body at the end of the last converged step; per metre of thickness in plane "
+	  "Sum of the forces [N] of each of *boundaries* on the body at the end of the last converged step; per metre of thickness in plane "
 	  "strain.",
 	  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	v("clampedDomains", &R::clampedDomains, latest(&StepReport::clampedDomains), byReport, readonly,
 	  "Points whose domain was kept at half a cell at the end of the last step.", count);
 	v("amgSetups", &R::amgSetups, sum([](const StepReport& r) { return r.conjugateGradients.hierarchies; }), byReport, readonly,
-	  "How often algebraic multigrid was set up in the last run (see MpmNewton.linearSolver).", count);
+	  "Number of times that algebraic multigrid was set up in the last run (see MpmNewton.linearSolver).", count);
 	v("wallOverlap", &R::wallOverlap, latest(&StepReport::largestWallOverlap), byReport, readonly,
 	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.", nonNegative);
 	v("ghostShare", &R::ghostShare, reached(&StepReport::ghostShare), byReportAndPlot, readonly,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What an analysis is set to, what acts in it, and what it has come to: an engine, as everything below the engines
+// Settings, conditions and results of an analysis: an engine, as everything below the engines
 // knows it.
 #include "core/stepping/load_curve.hpp"
 #include "core/stepping/model.hpp"
@@ -33,19 +33,19 @@ public:
 
 	virtual ~Analysis() = default;
 
-	// What acts on the material points, in the order of its terms.
+	// Conditions on the material points, in the order of their terms.
 	virtual vector<Listed> conditions() const = 0;
 
 	virtual bool          isDynamic() const { return false; }
 	virtual bool          isExplicit() const { return false; }
 	virtual void          tellMotion(py::dict&) const { }
-	virtual std::uint64_t checksumInTime() const { return 0; } // of the settings of steps in time
+	virtual std::uint64_t checksumInTime() const { return 0; } // settings of steps in time
 
 	// The engine.
 	virtual string            className() const         = 0;
 	virtual void              requireAttributes() const = 0; // std::invalid_argument names one that is not admitted
-	virtual shared_ptr<Scene> ownScene() const          = 0; // that has it
-	virtual Scene&            sceneOfRun() const        = 0; // that it was called in
+	virtual shared_ptr<Scene> ownScene() const          = 0; // scene that has the engine
+	virtual Scene&            sceneOfRun() const        = 0; // scene in which it was called
 	virtual long              period() const            = 0; // iterations from run to run
 	virtual long              runs() const              = 0; // so far
 
@@ -64,10 +64,10 @@ public:
 	// std::invalid_argument names one of a condition; who makes conditions asks before, as they do not ask.
 	void requireConditions() const;
 
-	// Whether bodies of points meet: there is a condition that gives them nodes of their own.
+	// True if there is contact between bodies of points: a condition gives them nodes of their own.
 	bool bodiesMeet() const;
 
-	// How many conditions an attribute has.
+	// Number of conditions in an attribute.
 	size_t countOf(const string& list) const;
 
 	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const

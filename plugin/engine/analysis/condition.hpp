@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What acts on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
+// Conditions on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
 #include "engine/points/MaterialPoints.hpp"
@@ -24,7 +24,7 @@ struct Listed {
 	string name() const { return string(list) + "[" + std::to_string(number) + "]"; }
 };
 
-// What there is as a run or a study begins.
+// State of the scene as a run or a study begins.
 template <int Dim> struct Surroundings {
 	const Analysis&               analysis;
 	const Scene&                  scene;
@@ -37,7 +37,7 @@ template <int Dim> struct Surroundings {
 struct StepTime {
 	Real from, to;                                       // load times
 	Real looked;                                         // when loads are looked at: at its end, or with the midpoint rule in its middle
-	Real energy = std::numeric_limits<Real>::infinity(); // of a step in time: all that has come in before it [J]
+	Real energy = std::numeric_limits<Real>::infinity(); // energy that has come in before a step in time [J]; infinity: another step
 };
 
 // A step that has been accepted.
@@ -46,7 +46,7 @@ template <int Dim> struct StepOutcome {
 	const gimpm::StepReport&     report;
 	const vector<MaterialPoint>& points;
 	Real                         from, time; // load times
-	vector<Vector3r>&            reactions;  // of the boundaries [N], to which conditions may add what they put in their place
+	vector<Vector3r>&            reactions;  // forces of the boundaries [N], to which conditions may add the forces that they put in their place
 	const vector<Vector3r>&      reactionsBefore;
 };
 
@@ -73,7 +73,7 @@ struct Penalty {
 struct HalvedDomain {
 	int                 lower, upper; // ids
 	int                 axis, dim;
-	std::array<Real, 3> middle, halfSize; // of the whole [m]
+	std::array<Real, 3> middle, halfSize; // centre and half size of the whole domain [m]
 };
 
 // One for each kind of condition that an engine has, made by it (MpmCondition::make). Terms refer to it, so that it
@@ -91,7 +91,8 @@ public:
 	// The steps are those in time: `motion` lives as long as the model. The first one begins at a load time.
 	virtual void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real /*begin*/) { }
 
-	// As a step begins, once the points are where they are then: gives points layers, and the grid what parts them.
+	// Gives points layers as a step begins, once the points are at their positions then, and gives the grid what
+	// parts them.
 	virtual void part(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&) { }
 
 	// Sets what acts in the next step, and of its load what the condition prescribes.
@@ -114,11 +115,11 @@ public:
 	// After the steps of a run: doubts, sentences by what they are about.
 	virtual std::map<string, string> warnings() const { return {}; }
 
-	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of it.
+	// True if the centre of a part of a point, as seen from the centre of the point, is on the same side of it.
 	virtual bool areBeside(const gimpm::Vec<Dim>& /*point*/, const gimpm::Vec<Dim>& /*part*/) const { return true; }
 
-	// Where it remembers something of points, what is remembered of a point is shared by its halves. It is told of
-	// the points of all processes.
+	// Memory of points: its value for a point is divided between the halves of the point. It is told of the points
+	// of all processes.
 	virtual bool remembersPoints() const { return false; }
 	virtual void share(const HalvedDomain&) const { }
 };

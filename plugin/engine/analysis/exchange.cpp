@@ -11,7 +11,7 @@
 namespace yade {
 
 namespace {
-	// As at the end of a step, no domain of the basis 'gimp' reaches farther than half a cell.
+	// Domain of the basis 'gimp', limited to half a cell as at the end of a step.
 	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
 	{
 		const gimpm::Vec<Dim> half = point.shape->halfSize.head<Dim>();
@@ -73,7 +73,7 @@ namespace {
 	// materials.
 	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
 	{
-		// By number: of materials, of parameters of a class.
+		// Flags by the number of a material, and of a parameter of a class.
 		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1);
 		for (size_t p = 0; p < points.size(); ++p) {
 			if (points[p].state->parameters.empty()) continue;
@@ -92,7 +92,7 @@ namespace {
 			}
 	}
 
-	// Of point p, the columns of which are there.
+	// Takes the parameters of point p, the columns of which are there.
 	template <int Dim>
 	void gatherParameters(const MaterialPoint& point, const gimpm::Law& law, OwnMaterial& ownMaterial, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
@@ -124,7 +124,7 @@ namespace {
 		point.shape->halfSize[2]   = point.shape->halfSize0[2] * stretch;
 	}
 
-	// Of point p; its column is there.
+	// Takes the internal variables of point p; its column is there.
 	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
 		point.requireInternals(law);
@@ -146,7 +146,7 @@ namespace {
 		}
 	}
 
-	// What a column of the core is of a point in YADE: take(point, model) is its value, give(point, value) puts
+	// Value of a column of the core for a point in YADE: take(point, model) is its value, give(point, value) puts
 	// what a step has made of it back.
 	template <class Cloud, class Values, class Take, class Give> struct Exchanged {
 		Values Cloud::*of;
@@ -159,7 +159,7 @@ namespace {
 	}
 
 	struct Elsewhere { };
-	constexpr auto stays = [](const MaterialPoint&, const auto&) {}; // as it is in YADE
+	constexpr auto stays = [](const MaterialPoint&, const auto&) {}; // the value in YADE stays
 
 	// Columns that depend on materials and laws, which are gone through one after the other.
 	template <class Cloud, class Values> constexpr auto byMaterial(Values Cloud::*of) { return exchanged(of, Elsewhere(), Elsewhere()); }

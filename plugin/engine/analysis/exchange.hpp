@@ -8,10 +8,10 @@
 
 namespace yade {
 
-// What an analysis is set to, as the core understands it, with the nodes that its conditions hold; without points and
-// without what acts on them.
-// Of the bodies of points that the grid has, at `where`.
-void                                 requireBody(int body, int count, const string& where);
+// Refuses a number of a body of points that the grid does not have, at `where`.
+void requireBody(int body, int count, const string& where);
+
+// Settings of an analysis as a model of the core, with the nodes that its conditions constrain; without points and terms.
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.

@@ -9,8 +9,8 @@
 namespace yade {
 
 namespace {
-	// As in a saved scene. That way needs neither the layout of a class, which differs from release to release, nor
-	// Python, which this thread must not wait for.
+	// Text of a saved object. This way needs neither the layout of a class, which differs from release to release,
+	// nor Python, which this thread must not wait for.
 	string saved(const shared_ptr<Serializable>& object)
 	{
 		std::ostringstream text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Who else moves bodies of the scene.
+// Other engines that move bodies of the scene.
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
 
@@ -12,7 +12,7 @@ public:
 	// std::invalid_argument names one where it cannot be told from here what it does.
 	explicit Movers(const Scene&);
 
-	// Whether one moves this body by its velocities. Members of a clump move with that.
+	// True if one moves this body by its velocities. Members of a clump move with that.
 	bool move(const Body&) const;
 
 	// Refuses material points that one would move besides their own engine: in statics those that have a velocity.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What is told of a state: numbers for tables, and cells with fields for VTK and pictures.
+// Output of a state: numbers for tables, and cells with fields for VTK and pictures.
 #include "yade_api/types.hpp"
 
 namespace yade {

@@ -47,7 +47,7 @@ public:
 		  part);
 		v("gamma", &E::gamma, 0, "Newmark's parameter [-], 1/2 to 1; above 1/2 the scheme damps and is of first order only.",
 		  admitting("a number from 1/2 to 1: below it, energy grows", [](Real value) { return value >= 0.5 && value <= 1; }));
-		v("rhoInfinity", &E::rhoInfinity, 0, "What generalised-alpha leaves of the highest frequencies in each step [-], 0 to 1.",
+		v("rhoInfinity", &E::rhoInfinity, 0, "Factor by which generalised-alpha keeps the highest frequencies in each step [-], 0 to 1.",
 		  admitting("a number from 0 to 1", [](Real value) { return value >= 0 && value <= 1; }));
 		v("timeTolerance", &E::timeTolerance, 0,
 		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep) and grows again. 0: not looked at. Not with 'midpoint'.",

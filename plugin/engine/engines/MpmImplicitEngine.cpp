@@ -196,7 +196,7 @@ template <int Dim> bool MpmImplicitEngine::ask(const gimpm::Grid<Dim>& lattice, 
 {
 	for (bool isAsked = false;; isAsked = true) {
 		std::unique_ptr<Question> question;
-		vector<Listed>            asked; // which lives on meanwhile
+		vector<Listed>            asked; // lives on meanwhile
 		{
 			const ValueLock lock;
 			asked    = conditions();
@@ -318,7 +318,8 @@ template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 	return points.size() > before;
 }
 
-// Of points that this process has. Where they are divided, the others may have a reason, too, and one of them is heard.
+// Warns about points that this process has. Where they are divided, the others may have a reason, too, and one of them
+// is heard.
 void MpmImplicitEngine::warnOfPoints(const string& text) { warn(gimpm::firstSaid(*holdersOf(*this), text)); }
 
 template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
@@ -413,7 +414,7 @@ Body::id_t addPoints(
 {
 	if (AtWork::isAny()) throw std::runtime_error("add: a load step is at work in the background; call O.pause() or O.wait() first.");
 	NewPoints points(*engine->grid, positions, half, materials, index, parameters, body);
-	engine->scene = Singleton<Omega>::instance().getScene().get(); // which it may not have seen yet
+	engine->scene = Singleton<Omega>::instance().getScene().get(); // it may not have seen the scene yet
 	return engine->add(points);
 }
 

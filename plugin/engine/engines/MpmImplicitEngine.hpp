@@ -57,7 +57,7 @@ public:
 		  oneOf("tiling", "stretch"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		v("pressureRelaxation", &E::pressureRelaxation, 0,
-		  "With *fBar*: takes out what pressures in a cell differ by without acting, as points move; for soil that flows far around a body.");
+		  "Pressure filter with *fBar*: takes out differences of pressures in a cell that do not act, as points move; for soil that flows far around a body.");
 		v("nonlocalLength", &E::nonlocalLength, 0,
 		  "Length [m] of the soil over which softening is averaged, at least *cellSize*; bands become some five times as wide. 0: it is not.",
 		  nonNegative);
@@ -91,13 +91,13 @@ public:
 		  "Time [s] of the last converged state, where the next step starts; 0 before the first: O.time as it joins. After O.resetTime() set it to O.time.",
 		  finite);
 		v("verbosity", &E::verbosity, 0,
-		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
+		  "Messages of a run on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
 		v("maxSplits", &E::maxSplits, 0,
-		  "How often a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
+		  "Number of times that a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
 		  atLeast(0));
 		v("distributed", &E::distributed, 0,
-		  "Whether several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");
+		  "True: several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
 	template <class C> static void python(C& c)
@@ -127,7 +127,7 @@ public:
 	Body::id_t add(NewPoints&);
 
 protected:
-	// Of the step before, where it matters.
+	// Reactions of the step before, where they matter.
 	virtual const vector<Vector3r>& formerReactions() const { return reactions; }
 	// Between load steps, too, the bodies that YADE moves feel the soil.
 	void handOver(bool isBetween);
@@ -135,7 +135,7 @@ protected:
 	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
 	virtual void setMoving(Job<3>&, const vector<MaterialPoint>&) { }
 
-	vector<MaterialPoint> points; // of the step; kept for the next one
+	vector<MaterialPoint> points; // points of the step; kept for the next one
 
 private:
 	void                            join();

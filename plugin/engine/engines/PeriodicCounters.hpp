@@ -4,8 +4,8 @@
 
 namespace yade {
 
-// Of a PeriodicEngine. They move on before action() is called: after a failed step they are put back, and the same
-// iteration runs again.
+// Counters of a PeriodicEngine. They move on before action() is called: after a failed step they are put back, and the
+// same iteration runs again.
 struct PeriodicCounters {
 	Real virtLast = 0, realLast = 0;
 	long iterLast = 0, nDone = 0;

@@ -48,7 +48,7 @@ namespace {
 				if (const auto* variable = column->variable; variable && !variable->admits(values->data()[row]))
 					throw std::invalid_argument(refusalOf(*variable, values->data()[row]));
 		}
-		// Of a point that is given these.
+		// Parameters of a point that is given these.
 		OwnParameters parametersOf(const MpmState& state, size_t row) const
 		{
 			OwnParameters parameters = state.parameters;
@@ -85,12 +85,12 @@ namespace {
 		return given ? Matrix3r(Eigen::Map<const Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>>(given)) : otherwise;
 	}
 
-	// Of a material point, what follows from columns.
+	// Values of a material point that follow from columns.
 	struct Values {
 		Matrix3r                                                defGrad, elasticStrain, stress;
 		Vector3r                                                halfSize;
 		Real                                                    volume;
-		vector<std::pair<const gimpm::InternalVariable*, Real>> internals; // that follow from a stress
+		vector<std::pair<const gimpm::InternalVariable*, Real>> internals; // internal variables that follow from a stress
 
 		void assignTo(const MaterialPoint& p) const
 		{

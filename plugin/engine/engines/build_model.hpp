@@ -15,7 +15,7 @@ template <int Dim> using TakePoints = std::function<void(Setup<Dim>&)>;
 // comes last. std::invalid_argument names what cannot be computed with.
 template <int Dim> Setup<Dim> buildModel(const Analysis&, const Scene&, const vector<MaterialPoint>& points, Real begin, Real target, const TakePoints<Dim>&);
 
-// What acts in the next step.
+// Sets and returns the load of the next step.
 template <int Dim> gimpm::Load<Dim> advance(Setup<Dim>&, const Analysis&, const StepTime&);
 
 // The state of the scene as it is: what a load step from here begins with, and loads that stay as they are. The points

@@ -29,7 +29,7 @@ namespace {
 		return gimpm::criticalStep(of.cloud, of.model, engine.ghostMass(), stiffestOf(of).size);
 	}
 
-	// Of the present state of the scene.
+	// Value for the present state of the scene.
 	template <int Dim, class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{
 		const ValueLock lock;

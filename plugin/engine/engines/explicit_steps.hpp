@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What MpmDynamicEngine needs for scheme='explicit' alone.
+// Parts of MpmDynamicEngine for scheme='explicit' alone.
 #include "engine/engines/job.hpp"
 #include "yade_api/exposed.hpp"
 
@@ -14,10 +14,10 @@ void requireExplicit(const MpmDynamicEngine&);
 // A step of this duration [s] is stable, or std::invalid_argument with the limit.
 template <int Dim> void requireStable(const MpmDynamicEngine&, const Setup<Dim>&, Real duration);
 
-// Of the present state of the scene [s]; NaN without grid or points.
+// Critical time step of the present state of the scene [s]; NaN without grid or points.
 Real criticalTimeStep(MpmDynamicEngine&);
 
-// Of the fastest pressure wave, there [m/s]; NaN without grid or points.
+// Speed of the fastest pressure wave, there [m/s]; NaN without grid or points.
 Real waveSpeed(MpmDynamicEngine&);
 
 template <class C> void addExplicitSteps(C& c)

@@ -9,15 +9,15 @@ namespace yade {
 
 template <int Dim> class Moving;
 
-// What the core computes with, and what acts on it. The terms of the model refer to the conditions, which live as long
-// as this does.
+// Model and points of the core, and the conditions on them. The terms of the model refer to the conditions, which live
+// as long as this does.
 template <int Dim> struct Setup {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
 	Conditions<Dim>        conditions {};
 };
 
-// What a run works on, and what remains to be done.
+// Work of a run, and what remains to be done.
 template <int Dim> struct Job : Setup<Dim> {
 	Job(Setup<Dim>&& setup, const gimpm::StepControl& control, Real begin, Real target)
 	        : Setup<Dim>(std::move(setup)), control(control), begin(begin), target(target)
@@ -25,7 +25,7 @@ template <int Dim> struct Job : Setup<Dim> {
 	}
 	gimpm::StepControl control;
 	Real               begin, target; // load times
-	vector<string>     warnings {};   // whether all is as it is meant
+	vector<string>     warnings {};   // doubts about settings
 
 	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia
 };

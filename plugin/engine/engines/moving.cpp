@@ -56,13 +56,13 @@ template <int Dim> void Moving<Dim>::joinRayleigh(const Job<Dim>& job)
 	if (alpha == 0 && beta == 0) return;
 	*rayleigh             = { alpha, beta };
 	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(job.model.materials);
-	const auto* masses    = &motion->mass; // which have those of the copies, too, where points are divided
+	const auto* masses    = &motion->mass; // masses that include those of the copies where points are divided
 	motion->damping.push_back([known = rayleigh, materials, masses, fBar = job.model.fBar](const gimpm::Beginning<Dim>& step) {
 		return std::make_unique<gimpm::RayleighDamping<Dim>>(*known, *materials, fBar, *masses, step);
 	});
 }
 
-// What contact has given itself is no part of it.
+// Energy that has come in, without the part that contact has given itself.
 template <int Dim> Real Moving<Dim>::energyComeIn() const
 {
 	return std::abs(engine.firstEnergy) + std::abs(engine.loadWork) + std::abs(engine.boundaryWork) + std::abs(engine.contactWork - engine.givenByContact);
@@ -79,7 +79,7 @@ template <int Dim> string Moving<Dim>::warningOfContact() const
 
 template <int Dim> StepTime Moving<Dim>::begin(Job<Dim>& job, Real from, Real to) const
 {
-	// By all processes, which are here together.
+	// Checked by all processes, which are here together.
 	if (engine.isExplicit()) requireStable<Dim>(engine, job, to - from);
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = to - from;
@@ -106,7 +106,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	const Real     from = step.from, time = step.time;
 	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
 	const Vector3r g = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
-	// Who brings along what there is already.
+	// The first process adds the work so far.
 	Real work = job.model.division->processes->rank() == 0 ? engine.loadWork : 0;
 	for (size_t p = 0; p < points.size(); ++p) {
 		Vector3r moved    = Vector3r::Zero();

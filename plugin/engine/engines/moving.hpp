@@ -17,7 +17,7 @@ public:
 	// The next step goes from one time to another.
 	StepTime begin(Job<Dim>&, Real from, Real to) const;
 
-	// What acts in it as the scheme in time looks at it.
+	// Takes the load at the instant at which the scheme in time evaluates it.
 	void weigh(gimpm::Load<Dim>&) const;
 
 	// Makes an explicit step.
@@ -36,7 +36,7 @@ private:
 	Real energyComeIn() const;
 
 	MpmDynamicEngine& engine;
-	// Of the points of this process before the first step; 0 where that has been made.
+	// Energy of the points of this process before the first step; 0 where that has been made.
 	Real                                energy;
 	std::shared_ptr<gimpm::Motion<Dim>> motion;
 	std::shared_ptr<gimpm::Rayleigh>    rayleigh { new gimpm::Rayleigh };

@@ -23,7 +23,7 @@ namespace {
 		Splits splitAll()
 		{
 			size_t p = 0;
-			do { // with those that are new, which have their ids then
+			do { // again for the new points, which have their ids then
 				for (const size_t end = points.size(); p < end; ++p)
 					while (splitOnce(p)) { }
 			} while (insertHalves());
@@ -71,9 +71,9 @@ namespace {
 		bool isFree(const MaterialPoint& point, int axis) const
 		{
 			const gimpm::Vec<Dim> middle = point.state->pos.template head<Dim>(), offset = toUpperHalf(point, axis).head<Dim>();
-			// What a body has kept from being split has become a needle by the time it has passed. Its
-			// gradient is none of what lies more than a cell away, and halves there would be soil that has
-			// jumped.
+			// Strongly stretched domains, which a body has kept from being split until it has passed, stay
+			// whole. Their gradient is not that of the soil more than a cell away, and halves there would
+			// be soil that has jumped.
 			if (offset.norm() > 2 * limitOf(point)) return false;
 			const auto& layers = job.model.layers;
 			const int   layer  = layers.empty() ? 0 : layers[point.state->body + 1];
@@ -145,7 +145,7 @@ namespace {
 			return !wholes.empty();
 		}
 
-		// What conditions remember of the points of all processes, which each of them knows.
+		// Shares the memory of conditions about the points of all processes, which each of them knows.
 		void shareMemory() const
 		{
 			const auto remembers = [](const auto& condition) { return condition->remembersPoints(); };
@@ -176,7 +176,7 @@ namespace {
 			return std::lower_bound(wholes.begin(), wholes.end(), whole) - wholes.begin();
 		}
 
-		// Of the points of all processes.
+		// Counts for the points of all processes.
 		void countAll(const gimpm::Division& division)
 		{
 			constexpr int64_t none  = std::numeric_limits<int64_t>::max();

@@ -16,7 +16,7 @@ public:
 	template <int Dim> string split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<Dim>&);
 
 private:
-	bool isSaid = false; // that a point has been split as often as is admitted
+	bool isSaid = false; // true once the user was told that a point has been split as often as is admitted
 };
 
 } // namespace yade

@@ -7,10 +7,10 @@
 namespace yade {
 class MpmImplicitEngine;
 
-// What newton.stepTolerance makes of the load steps of a run.
+// Effect of newton.stepTolerance on the load steps of a run.
 class StepErrors {
 public:
-	explicit StepErrors(const MpmImplicitEngine&); // as a run begins
+	explicit StepErrors(const MpmImplicitEngine&); // made once a run begins
 
 	// The load step that is to be tried now, as attempt() makes it. Where loads begin to grow, or turn, no step
 	// before tells what the tolerance admits: there it is a small one.
@@ -26,7 +26,7 @@ public:
 		return tried;
 	}
 
-	// Of steps which come next and cannot be made smaller, once in a run; empty if there are none.
+	// Warning of steps which come next and cannot be made smaller, once in a run; empty if there are none.
 	string warningOf(const gimpm::StepReport&, const gimpm::StepControl& next);
 
 private:

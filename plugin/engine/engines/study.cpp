@@ -93,7 +93,7 @@ namespace {
 		return gimpm::conditionEstimate(K);
 	}
 
-	// Who has no strength that could be divided, and why.
+	// Refuses points without a strength that could be divided, and says why.
 	void requireStrength(const vector<MaterialPoint>& points)
 	{
 		bool hasStrength = false;
@@ -129,7 +129,7 @@ namespace {
 				        engine.getClassName() + ": the strength cannot be reduced where bodies of points meet (" + listed.name()
 				        + ") yet: what presses them together would go with the modulus.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
-		gimpm::WeakBody<3> found; // of either dimension
+		gimpm::WeakBody<3> found; // result in either dimension
 		onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto& load) {
 			const gimpm::StepControl control(1, engine.newton->minStep, engine.newton->maxIterations);
 			gimpm::LinearSolver      solver;

@@ -19,16 +19,16 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("name", &MpmBody::name, 0, "What it is called in MpmBodyContact.between; not empty.",
+		v("name", &MpmBody::name, 0, "Name in MpmBodyContact.between, not empty.",
 		  admitting("a name that is not empty", [](const string& s) { return !s.empty(); }));
 		v("vertices", &MpmBody::vertices, 0,
 		  "Current positions of the vertices of its surface [m], finite; z is not used in the plane. Read as a tuple.",
 		  admitting("points, all finite", areFinite));
 		v("pieces", &MpmBody::pieces, 0,
-		  "Of each segment or triangle of the surface, the two or three numbers of its vertices, as of an MpmSurface. Read as a tuple.",
+		  "Segments or triangles of the surface, each as the two or three numbers of its vertices (MpmSurface). Read as a tuple.",
 		  admitting("pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmBody::initialVertices, readonly,
-		  "Where the vertices were at the first step [m], empty before it. Pieces are divided until their sides are at most a quarter of a cell, "
+		  "Positions of the vertices at the first step [m], empty before it. Pieces are divided until their sides are at most a quarter of a cell, "
 		  "in 3D three quarters.");
 	}
 

@@ -36,7 +36,7 @@ public:
 		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: whole numbers of cells, at least 3. 0, the default: it does not.",
 		  nonNegative);
 		v("axisymmetric", &MpmGrid::axisymmetric, 0,
-		  "With dim=2: bodies of revolution about the grid line x = 0. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
+		  "Bodies of revolution about the grid line x = 0, with dim=2. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
 		v("refinements", &MpmGrid::refinements, 0,
 		  "Boxes (MpmRefinement) in which cells are halved; empty, the default: all are equal. Read as a tuple, so assign a new one to change it, also between steps.");
 		v("bodies", &MpmGrid::bodies, 0,
@@ -46,7 +46,7 @@ public:
 	// The place of a body of this name among the bodies, or -1.
 	int bodyNamed(const string& name) const;
 
-	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis
+	// Grid of the core. std::invalid_argument unless periods are whole numbers of cells, as many as basis
 	// functions need, and the axis of symmetry is on nodes.
 	template <int Dim> gimpm::Grid<Dim> lattice() const;
 

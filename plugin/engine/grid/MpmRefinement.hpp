@@ -23,7 +23,8 @@ public:
 	{
 		v("min", &MpmRefinement::min, 0, "Lower corner of the box [m]; -inf, the default, where it has no limit.", notNaN);
 		v("max", &MpmRefinement::max, 0, "Upper corner of the box [m]; inf, the default, where it has no limit.", notNaN);
-		v("halvings", &MpmRefinement::halvings, 0, "How often cells are halved, 1 to 3: *MpmGrid.cellSize* / 2, / 4 or / 8.", oneOf(1, 2, 3));
+		v("halvings", &MpmRefinement::halvings, 0, "Number of times that cells are halved, 1 to 3: *MpmGrid.cellSize* / 2, / 4 or / 8.",
+		  oneOf(1, 2, 3));
 	}
 
 	// Corners that are swapped in the constructor.

@@ -18,7 +18,8 @@ gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Ve
 }
 
 namespace {
-	// By its deformation, as after mpm.assign; a domain that was too large from the beginning is none of this grid.
+	// True if a domain is too large by its deformation, as after mpm.assign; one that was too large from the
+	// beginning is none of this grid.
 	template <int Dim> bool hasOutgrown(const MaterialPoint& point, Real limit, gimpm::DomainRule rule)
 	{
 		const Vector3r grown = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, rule) * (1 + 1e-9);
@@ -58,8 +59,8 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
-	// As a point that is not deformed was made; where the displacements of others have been counted anew, as near
-	// as a hoop strain is to the change of its radius.
+	// True if a point has its initial volume as a ring; where the displacements of others have been counted anew,
+	// as near as a hoop strain is to the change of its radius.
 	bool isRing(const MaterialPoint& point)
 	{
 		constexpr Real tolerance = 1e-6;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Whether points and boxes of nodes go with the grid of an analysis.
+// Checks that points and boxes of nodes go with the grid of an analysis.
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
 #include "core/grid/domain.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Whether points were made for the grid that they are computed on.
+// Checks that points were made for the grid that they are computed on.
 #include "core/grid/grid.hpp"
 #include "engine/points/MaterialPoints.hpp"
 

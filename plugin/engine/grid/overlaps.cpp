@@ -61,13 +61,13 @@ namespace {
 		const gimpm::PointCloud<Dim>& cloud;
 		std::vector<int>              level;
 		std::vector<Cell>             cell;
-		std::vector<int>              first, next; // of a bucket; after a point
+		std::vector<int>              first, next; // first point of a bucket; next point after a point
 		std::set<int>                 levels;
 	};
 
-	// What others do to a point: its own view of it.
+	// Cover of a point by others: its own view of it.
 	struct Cover {
-		double share     = 0;  // of its volume that larger or equal ones cover
+		double share     = 0;  // part of its volume that larger or equal ones cover
 		double twice     = 0;  // [m3], shared with those who see it, too
 		int    by        = -1; // one of them
 		int    samePlace = -1; // one that is nearly in the same place, neither being deformed
@@ -99,7 +99,7 @@ namespace {
 			cover.share += common / own;
 			cover.twice += lattices.areAlike(p, q) ? common / 2 : common;
 			if (!isDeformed[p] && !isDeformed[q] && areInSamePlace(cloud, p, q)) cover.samePlace = q;
-			// That is enough to know, and thousands may be in one place.
+			// This much is enough to know, and thousands may be at one position.
 			return cover.samePlace < 0 && cover.share < 2;
 		});
 		return cover;
@@ -128,7 +128,7 @@ template <int Dim> Overlaps findOverlaps(const gimpm::PointCloud<Dim>& cloud)
 		if (cover.share < wholly) continue;
 		if (!isDeformed[p]) take(found.ofFills, p, cover.by);
 		take(found.ofAny, p, cover.by);
-		// Of the thickness that the point stands for.
+		// Volume with the thickness that the point stands for.
 		found.volume += cover.twice * cloud.volume0[p] / (2 * cloud.halfSize0[p]).prod();
 	}
 	return found;

@@ -11,13 +11,13 @@ struct Overlaps {
 	using Pair = std::array<int, 2>; // positions in the list of points, the lower first
 	static constexpr Pair none { -1, -1 };
 
-	// Of points that have not been deformed: two nearly in the same place, or one that others cover wholly and one
-	// of those.
+	// Pair of points that have not been deformed: two nearly at the same position, or one that others cover wholly
+	// and one of those.
 	Pair ofFills = none;
 
-	// Of any points, deformed ones too: the volume that is counted more than once [m3] where others cover a point
-	// wholly, and such a point with one of those. What shear makes of neighbours, or two fills of different
-	// lattices where they meet, covers points in part.
+	// Pair of any points, deformed ones too: the volume that is counted more than once [m3] where others cover a
+	// point wholly, and such a point with one of those. Sheared neighbours, or two fills of different lattices
+	// where they meet, covers points in part.
 	Pair ofAny  = none;
 	Real volume = 0;
 };

@@ -20,7 +20,7 @@ public:
 	template <class V> static void attributes(V&& v)
 	{
 		v("match", &MpmDruckerPragerMat::match, 0,
-		  "Where it is as strong as Mohr-Coulomb's law: 'plane-strain' with any dilation, triaxial 'compression' or 'extension'.",
+		  "Stress state in which it is as strong as Mohr-Coulomb's law: 'plane-strain' with any dilation, triaxial 'compression' or 'extension'.",
 		  oneOf("plane-strain", "compression", "extension"));
 		v("viscosity", &MpmDruckerPragerMat::viscosity, 0,
 		  "Plastic viscosity [Pa s] >= 0: in simple shear the stress is the strength and this times the rate of shear (Bingham). Needs seconds, as *relaxationTime*.",

@@ -7,7 +7,7 @@
 
 namespace yade {
 
-// What the laws with cohesion and friction have in common.
+// Base of the laws with cohesion and friction.
 class MpmFrictionalMat : public ExposedIndexed<MpmFrictionalMat, MpmElasticMat> {
 public:
 	Real cohesion          = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli

@@ -13,7 +13,7 @@ gimpm::HardeningSoil::Given MpmHardeningSoilMat::given() const
 }
 
 namespace {
-	// What is missing or contradicts itself, as "attribute = value is not admitted: expected ..."; empty: nothing.
+	// Missing or contradictory attributes, as "attribute = value is not admitted: expected ..."; empty: nothing.
 	string contradiction(const MpmHardeningSoilMat& m)
 	{
 		std::ostringstream text;

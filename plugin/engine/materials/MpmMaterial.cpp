@@ -6,7 +6,7 @@
 namespace yade {
 
 namespace {
-	const char* const stateClass = "MpmState"; // which is of material points, and knows materials
+	const char* const stateClass = "MpmState"; // class of material points, which knows materials
 }
 
 shared_ptr<State> MpmMaterial::newAssocState() const

@@ -7,7 +7,7 @@ namespace yade {
 class MpmMaterial : public ExposedIndexed<MpmMaterial, Material> {
 public:
 	Real share
-	        = 1; // of what acts on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
+	        = 1; // part of the loads on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
 
 	// Soil that is being dug out: the stress of its grains is total stress, and water passes its pores without
 	// pressing on them. Given as *share*.
@@ -32,7 +32,7 @@ public:
 		// saved by YADE's Material, which admits every number
 		v("density", &MpmMaterial::density, noSave, "Density [kg/m³] > 0 of the initial configuration.", positive);
 		v("undrained", &MpmMaterial::undrained, 0,
-		  "Whether water cannot leave the pores: the law is that of effective stress, the water takes a pressure in excess (*MpmState.excessPressure*). Needs *waterModulus*.");
+		  "True: water cannot leave the pores; the law is that of effective stress, the water takes a pressure in excess (*MpmState.excessPressure*). Needs *waterModulus*.");
 		v("waterModulus", &MpmMaterial::waterModulus, 0,
 		  "Bulk modulus of the water over the porosity [Pa] > 0, with *undrained*: what the water adds to the soil's. 50 to 500 times that suffices; no default.",
 		  admitting("a finite number > 0 [Pa], or NaN, the default: not given", [](Real value) {
@@ -49,7 +49,7 @@ public:
 			  return std::isnan(value) || (value > 0 && value < 1);
 		  }));
 		v("conductivityLaw", &MpmMaterial::conductivityLaw, 0,
-		  "How the conductivity changes with the porosity: 'constant'; 'kozeny-carman'; 'log': its decimal logarithm goes with the void ratio, over *conductivityIndex*.",
+		  "Change of the conductivity with the porosity: 'constant'; 'kozeny-carman'; 'log': its decimal logarithm goes with the void ratio, over *conductivityIndex*.",
 		  oneOf("constant", "kozeny-carman", "log"));
 		v("conductivityIndex", &MpmMaterial::conductivityIndex, 0,
 		  "Change of the void ratio [-] > 0 by which the conductivity grows tenfold, with conductivityLaw='log'; no default.",

@@ -15,7 +15,7 @@ public:
 	Real criticalVolume     = std::numeric_limits<Real>::quiet_NaN();
 	Real criticalPressure   = 1e3;
 	Real curvature          = 0.3;
-	Real flowCurvature      = std::numeric_limits<Real>::quiet_NaN(); // that of the yield function
+	Real flowCurvature      = std::numeric_limits<Real>::quiet_NaN(); // default: that of the yield function
 	Real hardening          = std::numeric_limits<Real>::quiet_NaN();
 	Real specificVolume     = std::numeric_limits<Real>::quiet_NaN();
 	Real dilatancyRatio     = 3.5;

@@ -5,7 +5,7 @@
 
 namespace yade {
 
-// Of friction [rad]: one in degrees is hardly ever below pi/2.
+// Range of angles of friction [rad]: one in degrees is hardly ever below pi/2.
 inline bool isFrictionAngle(Real angle) { return angle >= 0 && angle < M_PI / 2; }
 
 } // namespace yade

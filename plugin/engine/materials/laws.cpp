@@ -74,7 +74,8 @@ namespace {
 		throw std::invalid_argument("the law of the material has no stress for these strains" + (words.empty() ? "." : ". It says: " + words));
 	}
 
-	// Whether the law leaves the strain as it is: also of states on the yield surface, which it may return to it.
+	// True if the law leaves the strain unchanged: also for states on the yield surface, which return mapping may
+	// keep.
 	bool isKept(Real difference, Real size)
 	{
 		constexpr Real roundOff = 1e-9, smallest = 1e-14;
@@ -134,7 +135,7 @@ Matrix3r kirchhoffStressOf(const gimpm::Material& material, const Matrix3r& elas
 }
 
 namespace {
-	// Of these principal stresses, or near it.
+	// Strain that has these principal stresses, or is near it.
 	Vector3r firstStrain(const gimpm::Law& law, const Vector3r& stress)
 	{
 		if (const auto strain = law->strainNear(stress)) return *strain;
@@ -158,7 +159,7 @@ namespace {
 			if (solves == 0 && !gimpm::wordsOfUserLaw().empty())
 				throw std::invalid_argument("the law of the material cannot have a stress at first: " + gimpm::wordsOfUserLaw() + ".");
 			const Matrix3r difference = stress - answer.stress;
-			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // which refuses what yields
+			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // refuses states that yield
 			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;
 			strain += gimpm::fromMandel(gimpm::leastSquares(answer.tangent, gimpm::toMandel(difference)));
 			if (!strain.allFinite()) break;

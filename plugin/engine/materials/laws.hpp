@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What the laws of material classes say, and answer (engine/materials/law_of_class.hpp pairs them).
+// Queries to the laws of material classes (engine/materials/law_of_class.hpp pairs them).
 #include "core/materials/material.hpp"
 #include "engine/materials/parameters.hpp"
 
@@ -9,13 +9,14 @@ namespace yade {
 // std::invalid_argument if the material's values are not admissible or its class has no law.
 gimpm::Material coreMaterial(const MpmMaterial&);
 
-// Of the class of the material: what may differ from point to point, in the order of its law; none for other classes.
+// Parameters of the class of the material that may differ from point to point, in the order of its law; none for other
+// classes.
 const vector<ParameterOfClass>& parametersOf(const MpmMaterial&);
 
-// Of the same class and with the same values. The class has a law.
+// Copy of the same class and with the same values. The class has a law.
 shared_ptr<MpmMaterial> copyOf(const MpmMaterial&);
 
-// Whether nothing flows under any load, and whether a factor of safety can divide the strength; false for classes
+// True if nothing flows under any load, and true if a factor of safety can divide the strength; false for classes
 // without a law.
 bool isElastic(const MpmMaterial&);
 bool canBeWeakened(const MpmMaterial&);
@@ -29,8 +30,8 @@ vector<std::pair<const gimpm::InternalVariable*, Real>> initialInternalsOf(const
 Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);
 Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
-// Of laws whose history follows from a stress [Pa]: the internal variables that bear it at least, in the order of the
-// law; of others as they are.
+// Internal variables that bear a stress [Pa] at least, in the order of the law, for laws whose history follows from a
+// stress; for others as they are.
 vector<Real> internalsBearing(const gimpm::Law&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
 // For mpm.respond: one call of the law in principal axes, with a dict of internal variables by name where they are not

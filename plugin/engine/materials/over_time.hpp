@@ -7,14 +7,14 @@
 
 namespace yade {
 
-// Of a tensor law.
+// Makes the law in time of a tensor law.
 template <class L> gimpm::Law overTime(const MpmMaterial& material, const L& law)
 {
 	if (std::isnan(material.relaxationTime)) return law;
 	return gimpm::Relaxing<L>(law, material.relaxationTime);
 }
 
-// Of a principal law; by a viscosity [Pa s], if that is not 0.
+// Makes the law in time of a principal law; by a viscosity [Pa s], if that is not 0.
 template <class L> gimpm::Law overTime(const MpmMaterial& material, const L& law, Real poisson, Real viscosity = 0)
 {
 	using InSpace = gimpm::InSpace<L>;

@@ -8,14 +8,14 @@
 namespace yade {
 
 struct Parameter {
-	const char *name, *unit, *label; // that of the attribute; SI, "-" of a ratio; for pictures
+	const char *name, *unit, *label; // name of the attribute; SI, "-" of a ratio; for pictures
 };
 
 // Each name once, in the order of mpm.arrays.
 const vector<Parameter>& allParameters();
 bool                     isParameter(std::string_view name);
 
-// Of a class of materials.
+// Parameter of a class of materials.
 struct ParameterOfClass {
 	const char*                        name;
 	std::function<Real&(MpmMaterial&)> in;
@@ -23,13 +23,13 @@ struct ParameterOfClass {
 	Real valueIn(const MpmMaterial& material) const { return in(const_cast<MpmMaterial&>(material)); }
 };
 
-// How water goes through the pores, which materials of all classes may say.
+// Parameters of flow through the pores, which materials of all classes may have.
 const vector<ParameterOfClass>& parametersOfPores();
 
-// Of the material's class, or of its pores; null: there is none of this name.
+// Parameter of the material's class, or of its pores; null: there is none of this name.
 const ParameterOfClass* findParameter(const MpmMaterial&, std::string_view name);
 
-using OwnParameters = vector<std::pair<string, Real>>; // of a point: name and value, each name once
+using OwnParameters = vector<std::pair<string, Real>>; // parameters of a point: name and value, each name once
 
 // Materials as points have them, one point after the other.
 class OwnMaterial {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What a user sees while an analysis runs: one line on stderr, redrawn in place on a terminal and now and then repeated
+// Progress of an analysis for the user: one line on stderr, redrawn in place on a terminal and now and then repeated
 // in a log.
 #include <chrono>
 #include <string>
@@ -14,8 +14,8 @@ struct Progress {
 	double      residual; ///< NaN: nothing was solved
 	std::size_t points;
 	bool        inTime;       ///< a step in time: how many are made in a second is told, too
-	bool        inBackground; ///< by O.run(), so that nothing but the script's output can come between two steps
-	bool        ends;         ///< with this step the run comes to its end
+	bool        inBackground; ///< run by O.run(), so that nothing but the script's output can come between two steps
+	bool        ends;         ///< true if the run comes to its end with this step
 };
 
 class ProgressLine {

@@ -52,11 +52,11 @@ namespace {
 		return text.str();
 	}
 
-	// Whether displacements have begun to run away from loads that grow: a sentence, or nothing.
+	// Sentence if displacements have begun to run away from loads that grow, or nothing.
 	string nearnessOfLimit(const Analysis& engine, const vector<MaterialPoint>& points)
 	{
 		constexpr Real fast      = 3;
-		Real           largest[] = { 0, 0 }; // of the last increment and of all
+		Real           largest[] = { 0, 0 }; // largest displacement of the last increment and of all
 		for (size_t i = 0; i < engine.lastDisplacements.size(); i += 6)
 			largest[0] = std::max(largest[0], Eigen::Map<const Vector3r>(&engine.lastDisplacements[i + 3]).norm());
 		for (const MaterialPoint& point : points)
@@ -115,7 +115,7 @@ namespace {
 		return advice;
 	}
 
-	// What began between two steps and goes on in this one.
+	// Stage that began between two steps and goes on in this one.
 	string stageOf(const Analysis& engine)
 	{
 		for (const auto& other : engine.sceneOfRun().engines)

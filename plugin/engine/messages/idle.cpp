@@ -16,7 +16,7 @@ namespace {
 		        && ((box.second - p.state->pos + reach).head(grid.dim).array() > 0).all();
 	}
 
-	// Of each condition that no point is near, wherever the points are: not zero.
+	// Nonzero for each condition that no point is near, wherever the points are.
 	vector<int64_t> areFar(const Analysis& analysis, const vector<Listed>& conditions, const vector<MaterialPoint>& points)
 	{
 		vector<int64_t> isFar;

@@ -6,7 +6,7 @@
 namespace yade {
 class Analysis;
 
-// Of conditions that hold nothing now, as no point is near them or touches them, a sentence for each; empty if there is
+// Sentences about conditions that constrain nothing now, as no point is near them or touches them; empty if there is
 // none. Those may be chosen.
 string idleConditions(const Analysis&, const vector<MaterialPoint>&, const std::function<bool(const MpmCondition&)>& isMeant);
 

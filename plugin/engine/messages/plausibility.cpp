@@ -47,8 +47,8 @@ namespace {
 			       " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
-	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the
-	// initial stress of points is that of their first look.
+	// Checksum of all that a check of the points depends on: a change of the deformation changes the sizes, too,
+	// and the initial stress of points is that of their first check.
 	template <int Dim> uint64_t fingerprint(const gimpm::PointCloud<Dim>& cloud)
 	{
 		gimpm::Checksum sum;
@@ -68,7 +68,7 @@ namespace {
 	// Shear makes neighbours overlap here and there; what has been filled or loaded twice does so as a whole.
 	string warningOfOverlap(const Overlaps& overlaps, const vector<MaterialPoint>& points)
 	{
-		// Of all volume; in a vertical cut that has run out to half its height it was 0.006.
+		// Limit as a part of all volume; in a vertical cut that has run out to half its height it was 0.006.
 		constexpr Real byShear = 0.05;
 		Real           all     = 0;
 		for (const MaterialPoint& p : points)
@@ -144,7 +144,7 @@ namespace {
 		return found;
 	}
 
-	// Of all points, as they were in the beginning.
+	// Box of all points, as they were in the beginning.
 	std::pair<Vector3r, Vector3r> initialBox(const vector<MaterialPoint>& points)
 	{
 		Vector3r lower = Vector3r::Constant(std::numeric_limits<Real>::infinity()), upper = -lower;
@@ -161,7 +161,7 @@ template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) 
 
 template <int Dim> bool Plausibility::knows(const vector<MaterialPoint>& points) const
 {
-	gimpm::PointCloud<Dim> cloud; // of which only this is looked at
+	gimpm::PointCloud<Dim> cloud; // only this is checked
 	for (const MaterialPoint& point : points) {
 		cloud.position.push_back(point.state->pos.template head<Dim>());
 		cloud.halfSize.push_back(point.shape->halfSize.template head<Dim>());
@@ -232,7 +232,8 @@ void Plausibility::requireGrid(const Analysis& engine) const
 		       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
 }
 
-// Of implicit steps in time, which are stable however long they are, but see nothing of what is over within one.
+// Warning about implicit steps in time, which are stable however long they are, but see nothing of what is over within
+// one.
 template <int Dim>
 string Plausibility::warningOfLength(
         const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)

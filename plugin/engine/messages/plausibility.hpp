@@ -44,7 +44,7 @@ public:
 private:
 	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const; // not those of the last call of know()
 	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
-	void                    requireGrid(const Analysis&) const; // of the sizes that requirePoints() has found
+	void                    requireGrid(const Analysis&) const; // checks the sizes that requirePoints() has found
 
 	// Looked at where the points are, and where the length of steps has changed.
 	template <int Dim>
@@ -54,20 +54,20 @@ private:
 	void say(vector<string>&, const string& about, const string& sentence);
 
 	std::optional<uint64_t> known;
-	std::map<string, bool>  said; // by what a doubt is about
+	std::map<string, bool>  said; // doubts that were told, by subject
 	bool                    saidEnd = false;
 	std::set<string>        saidAbout;
 
 	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of conditions: whether they reach any point
 
-	// of the points as they were looked at
+	// results for the points of the last check
 	Real                          smallest = 0, largest = 0;                  // initial sizes [m]
 	Matrix3r                      initialStress = Matrix3r::Zero();           // mean [Pa]
 	string                        overlap;                                    // the doubt about it
 	Real                          fastestWave = 0;                            // [m/s]
-	Real                          duration    = 0;                            // of a step, as it was looked at [s]
+	Real                          duration    = 0;                            // duration of a step in the last check [s]
 	string                        length;                                     // the doubt about it
-	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
+	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // box that all were in at first: its corners [m]
 };
 
 } // namespace yade

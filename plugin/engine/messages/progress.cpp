@@ -5,7 +5,7 @@
 namespace yade {
 
 namespace {
-	// Of the run: where it is to stop, or where the load curves end; 0 if both are behind.
+	// Last iteration of the run: its stop, or the end of the load curves; 0 if both are behind.
 	long lastIteration(const Analysis& engine)
 	{
 		const Scene& scene       = engine.sceneOfRun();

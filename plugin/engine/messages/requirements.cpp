@@ -11,7 +11,7 @@
 namespace yade {
 
 namespace {
-	// Of several engines none may claim a point of another: it would be moved twice.
+	// Refuses an engine that claims a point of another engine: the point would be moved twice.
 	void requireOnlyClaim(const Analysis& engine)
 	{
 		const Scene&            scene = engine.sceneOfRun();
@@ -37,7 +37,8 @@ namespace {
 					        + " and " + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
 
-	// What is listed twice would act twice, and two that move the same surface would do that in different ways.
+	// Refuses conditions that are listed twice, which would act twice, and two that move the same surface in
+	// different ways.
 	void requireOnce(const vector<Listed>& all)
 	{
 		for (size_t j = 0; j < all.size(); ++j)
@@ -105,7 +106,7 @@ static void requireNoDecomposition(const Scene& scene)
 			        "so that N processes share each load step.");
 }
 
-// What has not been shown to be right there.
+// Refuses features that have not been shown to be right there.
 static void requireEqualCells(const Analysis& engine)
 {
 	if (!engine.grid || engine.grid->refinements.empty()) return;
@@ -121,7 +122,7 @@ static void requireEqualCells(const Analysis& engine)
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
-// What has not been shown to be right with bodies of points that meet.
+// Refuses features that have not been shown to be right with contact between bodies of points.
 static void requireOneBody(const Analysis& engine)
 {
 	string what, meets;

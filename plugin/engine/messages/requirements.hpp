@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What there must be for a load step. std::invalid_argument otherwise.
+// Requirements of a load step. std::invalid_argument otherwise.
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {

@@ -9,7 +9,7 @@
 namespace yade {
 
 namespace {
-	// What bears no more than Mohr and Coulomb's law.
+	// Strength of a material that bears no more than Mohr and Coulomb's law.
 	std::optional<gimpm::Strength> strengthOf(const MpmMaterial& material, const gimpm::Material& law)
 	{
 		const auto* frictional = dynamic_cast<const MpmFrictionalMat*>(&material);

@@ -60,7 +60,8 @@ namespace {
 		return "";
 	}
 
-	// Where points have strengths or moduli of their own, those of the material need not be anybody's.
+	// Warning about units of a material. If points have strengths or moduli of their own, those of the material
+	// need not be anybody's.
 	string warningOf(const MpmMaterial& material, bool varies, Real gravity, Real height)
 	{
 		const string density = warningOfDensity(material.density);
@@ -78,7 +79,7 @@ string warningOfUnits(
 		const size_t first = std::find(index.begin(), index.end(), int(m)) - index.begin();
 		if (first >= points.size()) continue; // another process has them
 		const MaterialPoint& point = points[first];
-		if (point.material->share != 1) continue; // of a stage of construction, which makes it light, and soft
+		if (point.material->share != 1) continue; // stage of construction, which makes it light, and soft
 		const string warning = warningOf(*point.material, materials[m].varies, gravity.norm(), height);
 		if (!warning.empty()) return sentence("material '", point.material->label, "' (of body #", point.id, ") has ", warning);
 	}

@@ -28,7 +28,7 @@ namespace {
 			vector<string> found;
 			for (const PointColumn& column : pointColumns())
 				if (column.is(PointColumn::inVtk)) found.push_back(column.name);
-			found.push_back("clamped"); // which depends on the grid
+			found.push_back("clamped"); // depends on the grid
 			return found;
 		}();
 		return names;
@@ -65,7 +65,7 @@ namespace {
 	{
 		{
 			const PythonUnlock python;
-			endBackgroundRun(); // of a simulation that still runs when the script has ended
+			endBackgroundRun(); // ends a simulation that still runs when the script has ended
 		}
 		for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
 			if (auto* recorder = dynamic_cast<MpmVtkRecorder*>(engine.get())) recorder->finish();
@@ -151,7 +151,7 @@ void MpmVtkRecorder::stepEnds(const Analysis& engine, bool converged)
 
 void MpmVtkRecorder::stepFailed(const Analysis& engine)
 {
-	const bool hasAdvanced = engine.loadTime > knownTime; // by a part of the step
+	const bool hasAdvanced = engine.loadTime > knownTime; // advanced by a part of the step
 	if (hasAdvanced) lastStepIter = scene->iter;
 	isUnwritten |= hasAdvanced;
 	finish();
@@ -188,7 +188,7 @@ MpmVtkRecorder::Moment MpmVtkRecorder::momentOf(const Analysis& engine) const
 	return { scene->iter + (scene->iter == lastStepIter ? 1 : 0), engine.loadTime };
 }
 
-// As PeriodicEngine decides, but for the state to be written instead of the time when the iteration began.
+// Rule of PeriodicEngine, but for the state to be written instead of the time when the iteration began.
 bool MpmVtkRecorder::isDue(const Moment& now)
 {
 	if (now.iter < iterLast) nDone = 0; // O.resetTime()
@@ -282,7 +282,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const Analysis
 	writeState(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;
-	const auto isReplaced = [&](const auto& entry) { // by a repeated step, or after O.resetTime()
+	const auto isReplaced = [&](const auto& entry) { // a repeated step, or O.resetTime(), replaces it
 		return isOfSeries(entry) && (entry.first == file || entry.second >= now.time);
 	};
 	entries.erase(std::remove_if(entries.begin(), entries.end(), isReplaced), entries.end());

@@ -36,19 +36,19 @@ public:
 		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
-		  "What to write: 'points', domains with *fields*; 'grid', cells with material; 'ghostFaces', stabilised faces; 'loads', loaded surfaces; "
+		  "Kinds of files: 'points', domains with *fields*; 'grid', cells with material; 'ghostFaces', stabilised faces; 'loads', loaded surfaces; "
 		  "'walls', surfaces of boundaries; 'contacts', faces of bodies; 'all'. "
 		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'", areKinds));
 		v("fields", &MpmVtkRecorder::fields, 0,
-		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
+		  "Fields of 'points' that are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
 		  admitting(whichFields(), areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
 		v("sectors", &MpmVtkRecorder::sectors, 0,
-		  "With MpmGrid.axisymmetric: parts of the circle into which 'points' are revolved about the axis, at least 3; 0, the default: the section.",
+		  "Parts of the circle into which 'points' are revolved about the axis, with MpmGrid.axisymmetric, at least 3; 0, the default: the section.",
 		  admitting("0 or a number of parts >= 3", [](int n) { return n == 0 || n >= 3; }));
 		v("written", &MpmVtkRecorder::written, readonly, "Files that the .pvd files list, each with the time [s] of its state.");
 	}
@@ -86,11 +86,11 @@ private:
 	void            writeAll(const Analysis&);
 	void            write(const string& kind, const Moment&, const Analysis&);
 
-	// Of this process, so they are not saved:
+	// Members of this process, so they are not saved:
 	long                       lastStepIter = -1;                                     // O.iter in the last step
 	Real                       knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
-	vector<const PointColumn*> fieldsOfPoints;                                        // that there are, as they were written last
-	bool                       isUnwritten = false;                                   // whether no file has that state, which this process has reached
+	vector<const PointColumn*> fieldsOfPoints;                                        // fields that there are, written last
+	bool                       isUnwritten = false;                                   // true if no file has that state, which this process has reached
 };
 
 } // namespace yade

@@ -38,7 +38,7 @@ namespace {
 		return t;
 	}
 
-	// With those of the points in other processes.
+	// Totals with the points in other processes.
 	Totals ofAll(Totals t, const gimpm::Processes& all)
 	{
 		vector<Real> sums { t.points, t.volume0, t.plasticVolume0, t.elasticEnergy };

@@ -10,7 +10,7 @@ class Analysis;
 
 using Columns = vector<const PointColumn*>;
 
-// Which columns are fields of the points of an engine that are divided, whatever process they are in. All processes
+// Columns that are fields of the points of an engine that are divided, whatever process they are in. All processes
 // call it.
 vector<const PointColumn*> fieldsOfAll(const Analysis&);
 

@@ -75,7 +75,7 @@ namespace {
 		addField<vtkIntArray>(cells, name, 1, items, [&](const auto& item, int* value) { *value = get(item); });
 	}
 
-	// Of the middles of sectors of the circle about the axis y, from the plane x-y.
+	// Rotations to the centres of sectors of the circle about the axis y, from the plane x-y.
 	vector<Matrix3r> turns(int sectors)
 	{
 		vector<Matrix3r> all;

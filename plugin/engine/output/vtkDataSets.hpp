@@ -22,7 +22,7 @@ VtkCells pointDomains(
         const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, std::optional<gimpm::DomainRule> rule,
         int sectors);
 
-// Which of the columns are fields of these points.
+// Columns that are fields of these points.
 vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);
 
 // The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane

@@ -106,7 +106,7 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	if (!format.compress) writer->SetCompressorTypeToNone();
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
-		const QuietVtk quiet; // whoever reads the exception needs no words of VTK before it
+		const QuietVtk quiet; // readers of the exception need no words of VTK before it
 		writer->Write();
 	});
 }

@@ -22,7 +22,7 @@ namespace {
 				numbers.push_back(number);
 	}
 
-	// Of all attributes, and of the place and the velocity that belong to YADE's State.
+	// Checksum of all attributes, and of the position and the velocity that belong to YADE's State.
 	std::uint64_t checksum(const vector<MaterialPoint>& points, size_t begin)
 	{
 		gimpm::Checksum sum;
@@ -38,7 +38,7 @@ namespace {
 		return sum.take();
 	}
 
-	// With what acts in it, pointers of each list after the other.
+	// Checksum of the settings with all conditions, pointers of each list after the other.
 	std::uint64_t settingsOf(const Analysis& engine)
 	{
 		const Scene&                     scene = engine.sceneOfRun();
@@ -62,8 +62,8 @@ namespace {
 		return all;
 	}
 
-	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and
-	// are not compared.
+	// Checksum of the friction of the rigid bodies that may touch the soil. Their shapes have a colour by chance,
+	// and are not compared.
 	std::uint64_t frictionOf(const Analysis& engine)
 	{
 		vector<shared_ptr<Material>> materials;
@@ -72,7 +72,7 @@ namespace {
 		return checksumOf(materials);
 	}
 
-	// Where they are, and how they move.
+	// Checksum of their poses and velocities.
 	std::uint64_t motionOf(const Analysis& engine)
 	{
 		vector<Real> numbers;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What processes that divide the material points of a scene among them must have in common. std::runtime_error, of all
+// State that processes that divide the material points of a scene must have in common. std::runtime_error, in all
 // of them, where they have not.
 #include "core/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
@@ -14,7 +14,7 @@ void requireSame(const gimpm::Processes&, const Analysis&, const vector<Material
 
 void requireSame(const gimpm::Processes&, const NewPoints&);
 
-// What functions of conditions have answered, once each of them has been asked.
+// Compares the answers of functions of conditions, once each of them has been asked.
 void requireSameAnswers(const gimpm::Processes&, const Analysis&);
 
 // The materials that any of them has points of, in the order of O.materials; with the same values.

@@ -25,11 +25,11 @@ namespace {
 		return std::partition_point(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id < bodiesInPieces; }) - points.begin();
 	}
 
-	// With what they consist of: YADE never lets go of bodies that O.bodies.append() was given in a list.
+	// Erases bodies with all parts: YADE never lets go of bodies that O.bodies.append() was given in a list.
 	void eraseFrom(Scene& scene, const vector<Body::id_t>& ids)
 	{
 		if (ids.empty()) return;
-		const PythonLock python; // which holds them, too
+		const PythonLock python; // Python holds them, too
 		for (const Body::id_t id : ids) {
 			const shared_ptr<Body> body = (*scene.bodies)[id];
 			scene.bodies->erase(id, false);
@@ -38,13 +38,13 @@ namespace {
 		}
 	}
 
-	// Of bodies of points that meet (Model::layers), before there is a model.
+	// Layers of bodies of points in contact (Model::layers), before there is a model.
 	template <int Dim> vector<int> layersOf(const Analysis& engine)
 	{
 		return engine.bodiesMeet() ? emptyModel<Dim>(engine, conditionsOf<Dim>(engine)).layers : vector<int>();
 	}
 
-	// Of a position, half of a domain, which reaches no farther than half a cell, and a body of points.
+	// Lowest cell of a position, half of a domain, which reaches no farther than half a cell, and a body of points.
 	template <int Dim> auto lowestCellIn(const Analysis& engine)
 	{
 		return [layers = layersOf<Dim>(engine), lattice = engine.grid->lattice<Dim>(),
@@ -56,7 +56,7 @@ namespace {
 		};
 	}
 
-	// By cell, in the order of the points.
+	// Loads by cell, in the order of the points.
 	vector<gimpm::CellLoad> loadsOf(vector<gimpm::Key> lowest)
 	{
 		std::sort(lowest.begin(), lowest.end());
@@ -112,7 +112,8 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 	eraseFrom(scene, erased);
 	for (const auto& message : gimpm::exchanged(*all, messages))
 		unpackBodies(message, scene);
-	// What has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak.
+	// Memory of erased bodies, and of the heap of the thread of the step before, is given back: a sixth of the
+	// peak.
 	malloc_trim(0);
 	Pieces::note(scene, *all);
 	updateMaterialPoints(points, scene, engine.mask);

@@ -28,7 +28,7 @@ public:
 private:
 	void cut(const std::shared_ptr<const gimpm::Processes>&, const vector<gimpm::Key>& lowest, size_t own);
 
-	vector<gimpm::Key> first; // of the ranges, as in gimpm::Division; empty before the first step
+	vector<gimpm::Key> first; // first keys of the ranges, as in gimpm::Division; empty before the first step
 };
 
 // The processes among which the points of an engine are divided, so that each has its own only; this one alone where it

@@ -7,7 +7,7 @@
 namespace yade {
 
 namespace {
-	// What a body consists of besides its state and its shape, which it has of its own.
+	// Members of a body besides its state and its shape, which it has of its own.
 	struct Envelope {
 		int          id, material, flags, clumpId;
 		Body::mask_t groupMask;

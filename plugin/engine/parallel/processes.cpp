@@ -9,7 +9,7 @@
 namespace yade {
 
 namespace {
-	// What OpenMPI's mpirun has told this process.
+	// Value that OpenMPI's mpirun has told this process.
 	int toldByMpirun(const char* variable, int otherwise)
 	{
 		const char* text = std::getenv(variable);
@@ -52,7 +52,7 @@ namespace {
 		}
 	}
 
-	// Whether what has been thrown says that something given is not admitted.
+	// True if what has been thrown says that an argument is not admitted.
 	bool isRefusal(const std::exception_ptr& thrown)
 	{
 		try {

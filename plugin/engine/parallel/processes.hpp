@@ -12,19 +12,20 @@
 namespace yade {
 class Analysis;
 
-// Of several all call this; it opens the library with MPI. std::invalid_argument if that is not there.
+// Processes of the run. All of several call this; it opens the library with MPI. std::invalid_argument if that is not
+// there.
 std::shared_ptr<const gimpm::Processes> processes();
 
-// Whether this is the one that writes files and messages.
+// True in the process that writes files and messages.
 bool isFirstProcess();
 
-// Whether one of them is asked to give up.
+// True if one of them is asked to give up.
 bool isRequested(bool here, const gimpm::Processes&);
 
 // The largest of their numbers.
 int largestOf(int, const gimpm::Processes&);
 
-// Where one of them has failed all throw what the first of those has thrown: a std::invalid_argument, or a
+// Throws in all processes what the first failed one has thrown: a std::invalid_argument, or a
 // std::runtime_error.
 void failTogether(const std::exception_ptr&, const gimpm::Processes&);
 
@@ -40,7 +41,7 @@ template <class F> void together(F&& f, const gimpm::Processes& all)
 	failTogether(thrown, all);
 }
 
-// Whether all have come as far as this one. A process that waits for another which has failed would wait for ever.
+// Check that all have come as far as this one. A process that waits for another which has failed would wait for ever.
 class Agreement {
 public:
 	// All are about to divide their points; std::runtime_error where another one has failed, with its reason.

@@ -4,7 +4,8 @@
 
 namespace yade {
 
-// As long as it lives, an engine is between taking over the values of the material points and giving them back.
+// Mark that an engine is between taking over the values of the material points and giving them back, while this object
+// lives.
 class AtWork {
 public:
 	AtWork() { ++engines; }
@@ -12,7 +13,7 @@ public:
 	AtWork(const AtWork&)            = delete;
 	AtWork& operator=(const AtWork&) = delete;
 
-	static bool isAny() { return engines > 0; } // of whatever scene
+	static bool isAny() { return engines > 0; } // true if there is any, in any scene
 
 private:
 	static inline std::atomic_int engines { 0 };

@@ -22,7 +22,7 @@ namespace {
 	// The integrator moves the members of a clump with it, whatever their own state says.
 	bool isInClump(const Body& body) { return body.clumpId >= 0; }
 
-	// By YADE's collider and integrator.
+	// True if YADE's collider and integrator leave it alone.
 	bool isLeftAlone(const Body& body, const MpmState& state) { return !body.isBounded() && state.blockedDOFs == State::DOF_ALL && !isInClump(body); }
 
 	bool isStillOf(const MaterialPoint& point, const Body& body)

@@ -26,7 +26,7 @@ struct MaterialPoint {
 	// True if it is where it was filled, as it was then.
 	bool isUnmoved() const { return state->pos == state->refPos && state->defGrad.isIdentity(0); }
 
-	// Of its internal variables in the order of its law.
+	// Internal variables in the order of its law.
 	Real         internalOf(const gimpm::Law&, size_t k) const;
 	vector<Real> internalsOf(const gimpm::Law&) const;
 
@@ -39,7 +39,7 @@ struct MaterialPoint {
 	int materialIndex(const Scene&) const;
 };
 
-// Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
+// True if an engine with this mask is to read the body: 0 and -1 mean all, also a body whose groupMask has no bits.
 inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & Body::mask_t(mask)) != Body::mask_t(0); }
 
 // All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is

@@ -29,7 +29,7 @@ void MpmState::setEntry(Entries& entries, std::string_view name, Real value)
 
 const Real* MpmState::parameter(std::string_view name) const { return find(parameters, name); }
 
-// Which numbers a class of materials admits, is looked at where the class is known.
+// Ranges of a class of materials are checked where the class is known.
 bool MpmState::areParameters(const OwnParameters& entries)
 {
 	std::set<std::string_view> names;
@@ -49,7 +49,8 @@ bool MpmState::areInternals(const vector<std::pair<string, Real>>& entries)
 	});
 }
 
-// Of each point in each step: number by number, which takes far less time than expressions of matrices.
+// Compares number by number, which takes far less time than expressions of matrices: this is called for each point in
+// each step.
 bool MpmState::isSymmetric(const Matrix3r& m)
 {
 	Real largest = 0;

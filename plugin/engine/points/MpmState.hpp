@@ -19,7 +19,7 @@ public:
 	Real                            excessPressure = 0;
 	Vector3r                        waterFlux      = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
 	Real                            plasticStrain  = 0;
-	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
+	vector<std::pair<string, Real>> internals; // variables of the law that are no attribute here
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
 	int                             splits       = 0;
@@ -73,7 +73,7 @@ public:
 		v("waterFlux", &MpmState::waterFlux, readonly,
 		  "Volume of water that flows through the soil, by area and time [m/s], at the end of the last step with *MpmImplicitEngine.flow*: a result; NaN without.");
 		v("splits", &MpmState::splits, readonly,
-		  "How many times what was one point at first has been split in two to give this one: a result (MpmImplicitEngine.maxSplits).", atLeast(0));
+		  "Number of times that the initial point has been split in two to give this one: a result (MpmImplicitEngine.maxSplits).", atLeast(0));
 		v("parent", &MpmState::parent, readonly,
 		  "Id of the body that this one was split off from, which keeps the other half; -1 of points that were there at first.", atLeast(-1));
 		v("body", &MpmState::body, readonly,
@@ -88,7 +88,7 @@ public:
 	// Position and initial position belong to YADE's State, which admits every number.
 	void requireAdmissible() const override;
 
-	// Of an internal variable of the point's law; null while it has its initial value.
+	// Internal variable of the point's law; null while it has its initial value.
 	const Real* internal(std::string_view name) const { return name == ownAttribute ? &plasticStrain : find(internals, name); }
 	void        setInternal(std::string_view name, Real value)
 	{

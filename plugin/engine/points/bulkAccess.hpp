@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What module mpm does with all material points at once, far faster than body by body in Python.
+// Access of module mpm to all material points at once, far faster than body by body in Python.
 #include "yade_api/yade_api.hpp"
 
 namespace yade {
@@ -8,7 +8,7 @@ namespace yade {
 // Calls f while no step in the background changes the material points or the engines.
 void betweenSteps(const py::object& f);
 
-// Of all material points of the scene, in rising order: a bytearray of int64.
+// Ids of all material points of the scene, in rising order: a bytearray of int64.
 py::object idsOfPoints();
 
 // For each column of mpm.arrays(), or also of those that follow from them, its values in order of body id, one row

@@ -16,7 +16,7 @@ namespace {
 	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits, ofPores = PointColumn::ofPores, ofFlow = PointColumn::ofFlow,
 	               ofBodies = PointColumn::ofBodies;
 
-	// of(point, scene) is the number; a column of integers
+	// Column of integers; of(point, scene) is the number.
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
 	{
 		const auto get = [of](Points points, const Scene& scene, Real* to) {
@@ -25,7 +25,7 @@ namespace {
 		};
 		return { name, "-", name, 1, true, uses, get, nullptr };
 	}
-	// of(point) is the value, or the place of the value where it can be set
+	// Column of a result; of(point) is the value, or the address of the value where it can be set.
 	template <class Of> PointColumn result(const char* name, const char* unit, const char* label, unsigned uses, Of of)
 	{
 		using T             = std::decay_t<decltype(of(std::declval<Point>()))>;
@@ -54,7 +54,7 @@ namespace {
 		return column;
 	}
 
-	// Who gives a velocity begins a motion: the next step finds the acceleration that goes with it.
+	// Velocity, which begins a motion if it is given: the next step finds the acceleration that goes with it.
 	PointColumn velocity()
 	{
 		PointColumn column = result("velocity", "m/s", "velocity", arrays | vtk | ofMotion, [](Point p) { return p.state->vel; });
@@ -73,7 +73,7 @@ namespace {
 		return column;
 	}
 
-	// Of a point that nobody has given the variable and that has made no step.
+	// Initial value for a point that nobody has given the variable and that has made no step.
 	Real initialValue(Point p, const gimpm::InternalVariable& variable)
 	{
 		for (const auto& [known, value] : initialInternalsOf(*p.material))
@@ -92,7 +92,7 @@ namespace {
 		return { variable.name, variable.unit, variable.description, 1, false, arrays | vtk, get, set, &variable };
 	}
 
-	// Of the material, where the point has none of its own.
+	// Parameter of the point, or of its material where the point has none of its own.
 	Real parameterOf(Point p, const char* name)
 	{
 		if (const Real* own = p.state->parameter(name)) return *own;

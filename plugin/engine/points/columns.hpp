@@ -9,7 +9,7 @@ namespace yade {
 
 struct PointColumn {
 	enum Use : unsigned {
-		inArrays = 1,   // of mpm.arrays
+		inArrays = 1,   // columns of mpm.arrays
 		inVtk    = 2,   // field of the domains that MpmVtkRecorder writes
 		ofMotion = 8,   // only where a point moves is it a field
 		ofWater  = 16,  // only where there is water
@@ -28,8 +28,8 @@ struct PointColumn {
 	std::function<void(const vector<MaterialPoint>&, const Scene&, Real*)> get; // row by row
 	std::function<void(const MaterialPoint&, const Real*)>                 set; // none: a result
 
-	const gimpm::InternalVariable* variable    = nullptr; // of laws; null: every point has it
-	bool                           isParameter = false;   // of laws: there where a point has its own
+	const gimpm::InternalVariable* variable    = nullptr; // variable of laws; null: every point has it
+	bool                           isParameter = false;   // parameter of laws: present if a point has its own
 
 	bool is(Use use) const { return uses & use; }
 };

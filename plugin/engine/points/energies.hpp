@@ -5,7 +5,7 @@
 
 namespace yade {
 
-// Of material points.
+// Energies of material points.
 struct Energies {
 	Real     kinetic = 0, elastic = 0;           // [J]
 	Vector3r momentum        = Vector3r::Zero(); // [kg m/s]

@@ -9,7 +9,7 @@
 
 namespace yade {
 
-// That opened this library.
+// Process that opened this library.
 inline const pid_t firstProcess = getpid();
 
 // To be asked before several threads work. GNU OpenMP keeps them for the next time, and YADE has had some even before

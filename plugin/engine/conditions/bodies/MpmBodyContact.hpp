@@ -46,13 +46,13 @@ public:
 		v("touching", &MpmBodyContact::touching, readonly, "Number of places that touch, two on each piece of a surface, three in space.");
 		v("slipping", &MpmBodyContact::slipping, readonly, "Number of those at the limit of friction.");
 		v("slave", &MpmBodyContact::slave, readonly,
-		  "Which of *between* has the places, 0 or 1: the softer one, of equal ones the first; -1 before the first step.");
+		  "Body of *between* that has the contact points, 0 or 1: the softer one, of equal ones the first; -1 before the first step.");
 		v("pressures", &MpmBodyContact::pressures, readonly,
 		  "Pressure >= 0 [Pa] on each of the *pieces* of that body (MpmBody), in their order, at the end of the last converged step; empty before the first.");
 		v("shears", &MpmBodyContact::shears, readonly, "Shear stress [Pa] on each of them.");
 	}
 
-	// What is kept of pieces must go together, too.
+	// Refuses records of segments or facets that do not go together, too.
 	void requireAdmissible() const override;
 
 	const char*                   list() const override { return "contacts"; }

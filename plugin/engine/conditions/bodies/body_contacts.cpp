@@ -74,7 +74,7 @@ namespace {
 		bool operator==(const BodyInCell& other) const { return cell == other.cell && body == other.body; }
 	};
 
-	// By cell, of the points of all processes.
+	// Bodies with points in a cell, by cell, for the points of all processes.
 	template <int Dim> std::unordered_map<gimpm::Key, std::set<int>> bodiesByCell(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
 	{
 		vector<BodyInCell> own;

@@ -32,7 +32,7 @@ private:
 	const Analysis&                           analysis;
 	const MpmGrid&                            grid;
 	vector<shared_ptr<MpmBodyContact>>        given;
-	vector<int>                               layers; // by the number of the body, from -1 on
+	vector<int>                               layers; // layer by the number of the body, from -1 on
 	std::shared_ptr<gimpm::BodyContacts<Dim>> system; // its terms refer to it
 };
 

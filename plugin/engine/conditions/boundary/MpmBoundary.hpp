@@ -20,7 +20,7 @@ public:
 	Real                      penalty  = 100;
 	string                    body;      // empty: all
 	shared_ptr<MpmBaseMotion> motion;    // none: it does not move by a history
-	vector<Vector3r>          tractions; // of the surface's pieces on the body [Pa]; empty before the first step
+	vector<Vector3r>          tractions; // tractions of the surface's pieces on the body [Pa]; empty before the first step
 
 	YADE_API_NAME(MpmBoundary)
 	static const char* doc()
@@ -53,8 +53,8 @@ public:
 		v("surface", &MpmBoundary::surface, 0,
 		  "Wall instead of a box: MpmSurface, points, triangles or gts.Surface; None, the default: the box. Each boundary has its own. It holds soil on both sides, and "
 		  "against pull too.");
-		v("velocity", &MpmBoundary::velocity, 0, "Of *surface*, which moves with what it holds [m per s of O.time], finite.", finite);
-		v("penalty", &MpmBoundary::penalty, 0, "How hard *surface* is, > 0: it gives way by pressure / (penalty young) cells [-].", positive);
+		v("velocity", &MpmBoundary::velocity, 0, "Velocity of *surface* and of the soil that it constrains [m per s of O.time], finite.", finite);
+		v("penalty", &MpmBoundary::penalty, 0, "Stiffness of *surface* [-] > 0: it gives way by pressure / (penalty young) cells [-].", positive);
 		v("tractions", &MpmBoundary::tractions, hidden, "",
 		  admitting("tractions of finite numbers [Pa]", [](const auto& all) { return std::all_of(all.begin(), all.end(), finite); }));
 	}

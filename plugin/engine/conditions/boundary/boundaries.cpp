@@ -79,7 +79,7 @@ template <int Dim> void Boundaries<Dim>::advance(const StepTime& step, gimpm::Mo
 template <int Dim> void Boundaries<Dim>::moveBases(const StepTime& step, gimpm::Load<Dim>& load) const
 {
 	const Real duration = step.to - step.from;
-	// Of the steps that accelerations belong to.
+	// Centre and length of the steps that accelerations belong to.
 	const Real centre = motion->scheme.isExplicit ? step.to : step.from + duration / 2;
 	motion->bases.clear();
 	for (const auto& [b, history] : bases) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What holds the body, between the boundaries of a scene and the core: boxes of nodes, walls off the lines of the grid,
-// and bases that move by a history.
+// Constraints of the body, between the boundaries of a scene and the core: boxes of nodes, walls off the lines of the
+// grid, and bases that move by a history.
 #include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
@@ -29,8 +29,8 @@ private:
 
 	const Analysis&                                  analysis;
 	vector<shared_ptr<MpmBoundary>>                  boundaries;
-	std::map<int, shared_ptr<MpmBaseMotion>>         bases; // by boundary; of steps in time
-	std::map<int, std::shared_ptr<gimpm::Wall<Dim>>> walls; // by boundary
+	std::map<int, shared_ptr<MpmBaseMotion>>         bases; // base motions by boundary; for steps in time
+	std::map<int, std::shared_ptr<gimpm::Wall<Dim>>> walls; // walls by boundary
 	vector<gimpm::HeldBox<Dim>>                      boxes;
 	gimpm::Motion<Dim>*                              motion = nullptr;
 };

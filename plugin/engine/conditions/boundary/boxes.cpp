@@ -30,7 +30,7 @@ namespace {
 		return box;
 	}
 
-	// Of two boxes, along one axis
+	// Compares two boxes along one axis.
 	template <int Dim>
 	bool moveAlike(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries, size_t i, size_t j, int axis)
 	{

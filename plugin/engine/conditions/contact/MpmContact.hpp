@@ -13,7 +13,7 @@ class Scene;
 class MpmContact : public Exposed<MpmContact, MpmCondition> {
 public:
 	int              mask      = -1;
-	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // that of the bodies' materials
+	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // coefficient of the bodies' materials
 	Real             adhesion  = std::numeric_limits<Real>::infinity();
 	Real             stiffness = 100;
 	bool             implicit  = false;
@@ -54,10 +54,10 @@ public:
 		v("stiffness", &MpmContact::stiffness, 0,
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
 		v("implicit", &MpmContact::implicit, 0,
-		  "Whether the engine moves free bodies (blockedDOFs not all set) within the equilibrium of its step, whatever O.dt is; False, the default: a NewtonIntegrator does, in 3D.");
+		  "True: the engine moves free bodies (blockedDOFs not all set) within the equilibrium of its step, whatever O.dt is; False, the default: a NewtonIntegrator does, in 3D.");
 		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
 		v("forces", &MpmContact::forces, readonly,
-		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");
+		  "Force of the soil [N] on each of *bodies* at the end of the last converged step; per metre of thickness in plane strain.");
 		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
 		v("impulses", &MpmContact::impulses, readonly,
 		  "Impulse [N s] that the stiffness handed over to a free body by MpmImplicitEngine has added in the iterations between the last two load steps; MpmDynamicEngine hands none over.");
@@ -74,16 +74,16 @@ public:
 	// The lists must go together.
 	void requireAdmissible() const override;
 
-	// What there is of the last load step, body by body.
+	// Records of the last load step, body by body.
 	void forget();
 	void keep(int id, const gimpm::ContactLoad&, const Se3r& pose, bool isFree, const Vector3r& impulse);
 
-	// Of the places on a body, and as such; it is kept if it is one.
+	// Records of the contact points on a body, and as such; it is kept if it is one.
 	static constexpr int turnWidth = 10;
 	Matrix3r             turnOf(int id) const;
 	void                 keepTurn(int id, const Matrix3r&);
 
-	// Of the last exchange, number i of the bodies.
+	// Pose of body number i in the last exchange.
 	Se3r poseOf(size_t i) const;
 
 	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the
@@ -109,7 +109,7 @@ public:
 	bool        goesOn() const override { return true; }
 	string      needsEqualCells(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	string      needsOneBody(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
-	bool        countsSeconds(const Scene&) const override; // where a body moves
+	bool        countsSeconds(const Scene&) const override; // true where a body moves
 	bool        mayHold(int, Real, Real) const override { return true; }
 	string      idleness(const string& name, bool reaches) const override;
 	void        tell(Rows&, const Analysis&, const Listed&) const override;

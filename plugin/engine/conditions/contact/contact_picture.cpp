@@ -14,7 +14,7 @@
 namespace yade {
 
 namespace {
-	// Of one body, by the number of the place.
+	// Records of one body, by the number of the contact point.
 	using RecordsOfBody = std::map<std::int64_t, ContactRecordOfPlace>;
 
 	std::map<int, RecordsOfBody> byBody(const vector<Real>& records)

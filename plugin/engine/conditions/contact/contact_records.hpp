@@ -4,8 +4,9 @@
 
 namespace yade {
 
-// What an MpmContact keeps of a place on the surface of a body that has soil in front of it, as numbers one after the
-// other. Before them all stands a mark; earlier revisions, which kept other numbers, had none, but the id of a point.
+// Record of an MpmContact about a contact point on the surface of a body that has soil in front of it, as numbers one
+// after the other. Before them all stands a mark; earlier revisions, which kept other numbers, had none, but the id of
+// a point.
 struct ContactRecordOfPlace {
 	static constexpr int  width = 18;
 	static constexpr Real mark  = -width;

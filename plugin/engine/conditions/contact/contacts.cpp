@@ -15,7 +15,7 @@ namespace yade {
 namespace {
 	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
-	// Where a body gets with its velocities in some time.
+	// Pose of a body that has moved with its velocities for some time.
 	Se3r ahead(const State& state, const Se3r& from, Real time)
 	{
 		const Real        angle = state.angVel.norm() * time;
@@ -88,7 +88,7 @@ template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : s
 template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
 	const size_t count = members.size();
-	Places       known; // of its bodies in the last run
+	Places       known; // numbers of its bodies in the last run
 	for (size_t i = 0; i < contact->bodies.size(); ++i)
 		known[contact->bodies[i]] = int(i);
 	for (const auto& body : contact->touchingBodies(scene)) {
@@ -322,7 +322,7 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 		keep(*contact);
 	keepRecords();
 	hasKept = true;
-	// Where a script has put it, it stays: the rest of that way is made by the next step.
+	// The pose stays where a script has put the body: the rest of that way is made by the next step.
 	for (const Owner& owner : owners) {
 		if (owner.byYade) continue;
 		const bool isLate = owner.byScript && partAt(time) < 1;
@@ -337,7 +337,7 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 	}
 }
 
-// What a free body gets until the next load step: the impulse that the soil has got in this one.
+// Load of a free body until the next load step: the impulse that the soil has got in this one.
 template <int Dim> void Contacts<Dim>::addToMeans(Real part)
 {
 	for (size_t i = 0; inTime && i < owners.size(); ++i)

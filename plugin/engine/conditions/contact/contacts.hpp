@@ -31,46 +31,45 @@ public:
 
 	Work work(const StepOutcome<Dim>&) const override;
 
-	// What the contacts keep, and where the bodies are if nobody else moves them.
+	// Writes back the records of the contacts, and the poses of the bodies if nobody else moves them.
 	void reach(const StepOutcome<Dim>&) override;
 
 	// The largest of their stiffnesses.
 	Penalty penalty() const override;
 
-	// What the soil cannot feel of bodies near it, and others.
+	// Doubts about bodies near the soil that the soil cannot feel, and others.
 	std::map<string, string> warnings() const override;
 
 	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
 
 private:
-	// Who moves bodies: one of them alone, or a clump.
+	// Owner of the motion of bodies: one of them alone, or a clump.
 	struct Owner {
 		shared_ptr<MpmContact> contact;
 		shared_ptr<Body>       body;
-		// Where it stood when the run began: the scripts may have moved it since the last one.
+		// Pose when the run began: the scripts may have moved it since the last one.
 		Se3r               given;
-		Se3r               begin, target, reached; // of the run; reached: the end of the step
-		gimpm::ContactLoad mean;                   // of the run so far, in steps in time
+		Se3r               begin, target, reached; // poses of the run; reached: the end of the step
+		gimpm::ContactLoad mean;                   // mean load of the run so far, in steps in time
 		bool               byYade = false, isFree = false, isNew = true;
 		// Has been moved since the last run, or its way was not finished then.
 		bool   byScript = false;
 		size_t place    = 0; // in the contact's list of bodies, once that is written
-		// Where it is moved with the soil: its number among the free bodies of the system, and how it moves as
-		// the
-		// step begins.
+		// Number among the free bodies of the system, if it is moved with the soil, and its motion as the step
+		// begins.
 		int        free = -1;
 		FreeMotion motion {};
 	};
-	using Places = std::map<Body::id_t, int>; // of bodies in a list
+	using Places = std::map<Body::id_t, int>; // number of bodies in a list
 	struct Member {
 		shared_ptr<Body> body;
-		Se3r             own, first; // as seen from the owner; in space, that from which its turn counts
+		Se3r             own, first; // poses as seen from the owner; in space, that from which its turn counts
 		vector<int>      nodes {};   // owners that it deforms with, if it does
 	};
 
 	void             advanceTo(Real time);
 	void             addToMeans(Real part);
-	bool             isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
+	bool             isBetween() const { return target - begin > 1.5 * dt; } // true if YADE makes iterations between load steps
 	void             add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
 	int              ownerOf(const shared_ptr<MpmContact>&, const Places& known, const shared_ptr<Body>&, const Scene&, const gimpm::Grid<Dim>&);
 	void             requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
@@ -94,11 +93,11 @@ private:
 	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
 	vector<Owner>                         owners;
 	Places                                ownersById;
-	vector<Member>                        members; // as the system's bodies
+	vector<Member>                        members; // members in the order of the system's bodies
 	bool                                  hasKept = false;
-	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
-	Real                                  dt       = 0;                   // of an iteration of YADE
-	Real                                  cellSize = 0;                   // of the smallest cells
+	Real                                  begin = 0, target = 0, end = 0; // times of the run; end: of the last step
+	Real                                  dt       = 0;                   // time step of YADE
+	Real                                  cellSize = 0;                   // size of the smallest cells
 	bool                                  inTime   = false;
 	SoilAtBody                            soil;
 	string                                coefficient; // doubt about an angle of friction

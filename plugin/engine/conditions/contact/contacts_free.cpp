@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of contacts, the bodies that move within the equilibrium of a step.
+// Bodies in contact that move within the equilibrium of a step.
 #include "core/base/sentence.hpp"
 #include "engine/conditions/contact/contacts.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
@@ -30,7 +30,7 @@ template <int Dim> void Contacts<Dim>::free(Owner& owner, const Scene& scene, co
 	system->free.push_back(freeBody<Dim>(int(owners.size()), motion, target - begin, Vector3r::Zero(), grid.axisymmetric));
 }
 
-// Where they would be without the soil, to begin with.
+// Moves free bodies to the poses without the soil, to begin with.
 template <int Dim> void Contacts<Dim>::advanceFree(const StepTime& step, bool isRing)
 {
 	const Vector3r weight = ofGravity->valueAt(step.looked) * gravity;

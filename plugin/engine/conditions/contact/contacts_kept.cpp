@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of contacts, what is kept from step to step.
+// Records of contacts that are kept from step to step.
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/contacts.hpp"
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 	}
 }
 
-// What a contact keeps, in numbers of this run.
+// Reads the records of a contact, in numbers of this run.
 template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 {
 	Places numbers;

@@ -20,7 +20,7 @@ namespace {
 		return dynamic_cast<const ChainedCylinder*>(body.shape.get()) ? dynamic_cast<const ChainedState*>(body.state.get()) : nullptr;
 	}
 
-	// That which comes next in its chain. The chains that YADE remembers besides are not right in a scene that was
+	// Next body in its chain. The chains that YADE remembers besides are not right in a scene that was
 	// loaded.
 	shared_ptr<Body> nextInChain(const Body& body, const ChainedState& state, const Scene& scene)
 	{
@@ -34,8 +34,8 @@ namespace {
 		return {};
 	}
 
-	// That by the least angle which takes one direction to another. Eigen's own has a singular value decomposition,
-	// which the compiler would spend seconds on.
+	// Rotation by the least angle which takes one direction to another. Eigen's own has a singular value
+	// decomposition, which the compiler would spend seconds on.
 	Matrix3r leastTurn(const Vector3r& from, const Vector3r& to)
 	{
 		const Vector3r a = from.normalized(), b = to.normalized(), middle = a + b;
@@ -90,7 +90,7 @@ namespace {
 		return gimpm::partsOfEdge(kind, before, spacing) << std::min(halvings, 10);
 	}
 
-	// By which a node turns in the step about an axis.
+	// Angle by which a node turns in the step about an axis.
 	Real turnAbout(const Vector3r& axis, const NodePose& node)
 	{
 		const Eigen::AngleAxis<Real> turn(node.end.orientation * node.begin.orientation.conjugate());
@@ -191,7 +191,7 @@ template <> void deform(gimpm::RigidBody<3>& body, const vector<NodePose>& nodes
 		before.push_back(node.begin.position), after.push_back(node.end.position);
 	const Vector3r axis = (before[1] - before[0]).normalized();
 	body.begin          = { middleOf(before), axesOf(before, nodes) };
-	// Of a line without a turn about itself, which is that of its nodes.
+	// Rotation of a line without a turn about itself, which is that of its nodes.
 	const Matrix3r turn = nodes.size() == 3 ? Matrix3r(axesOf(after, nodes) * body.begin.rotation.transpose()) : leastTurn(axis, after[1] - after[0]);
 	body.end            = { middleOf(after), turn * body.begin.rotation };
 	Real twist          = 0;

@@ -18,17 +18,16 @@ struct NodePose {
 // no other, has none.
 vector<shared_ptr<Body>> nodesOf(const Body&, const Scene&);
 
-// Whether soil does not touch it, but what is beside it: a GridNode, or the last cylinder of a chain.
+// True if soil does not touch it, but the bodies beside it: a GridNode, or the last cylinder of a chain.
 bool isPartOfNet(const Body&, const Scene&);
 
-// Whether others may deform with it.
+// True if others may deform with it.
 bool isNodeOfNet(const Body&);
 
 // Takes those out of a list that are the sides of PFacets in it.
 void dropSidesOfMembranes(vector<shared_ptr<Body>>&);
 
-// As the core understands it; std::invalid_argument where it cannot touch. Its friction, and who its nodes are, are
-// left
+// Body of the core; std::invalid_argument where it cannot touch. Its friction and the owners of its nodes are left
 // open.
 template <int Dim> gimpm::RigidBody<Dim> deformingBody(const Body&, const gimpm::Grid<Dim>&, const vector<NodePose>&);
 

@@ -8,7 +8,7 @@ namespace yade {
 namespace {
 	using Stiffness = gimpm::ContactLoad::Stiffness;
 
-	// Of the soil under a body, within a time.
+	// Stiffness of the soil under a body, within a time.
 	Real stiffnessOf(const SoilAtBody& soil, const gimpm::ContactLoad& load, Real time)
 	{
 		const Real area = std::max(load.area, soil.cellSize * soil.cellSize), young = load.young / load.area;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Which steps bodies that YADE moves freely admit beside the soil.
+// Limit of steps for bodies that YADE moves freely beside the soil.
 #include "core/terms/contact/contact.hpp"
 #include "yade_api/body.hpp"
 
@@ -9,7 +9,7 @@ namespace yade {
 // The highest eigenvalue of M^-1 K of a body that moves by the inverse of its masses, blocked ones left out [1/s2].
 Real frequency2(const State&, const gimpm::ContactLoad::Stiffness&);
 
-// What the soil of steps in time is where a body touches it.
+// Soil of steps in time where a body touches it.
 struct SoilAtBody {
 	Real density = 0, cellSize = 0; // [kg/m3], [m]
 	bool answers = true;            // within the step to the force that it gets

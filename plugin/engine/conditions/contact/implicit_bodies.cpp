@@ -7,7 +7,7 @@
 namespace yade {
 
 namespace {
-	// Of a shape with density one.
+	// Measures of a shape with density one.
 	struct Measures {
 		Real volume = 0, section = 0, polar = 0; // in space; of the section, and about its middle
 	};

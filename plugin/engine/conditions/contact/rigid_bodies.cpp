@@ -23,12 +23,12 @@ namespace {
 		if (!is) refuseBody(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
 	}
 
-	constexpr Real roundOff = 1e-9; // of what a body touches the plane z = 0 with
+	constexpr Real roundOff = 1e-9; // relative size of round-off where a body touches the plane z = 0
 
 	// Facets and Walls keep the axes of the scene as their own until they turn.
 	bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
 
-	// What is left of an orientation without its turn in the plane: the half of that turns the pair (w, z), and
+	// Orientation without its turn in the plane: the half of that turns the pair (w, z), and
 	// (x, y) the same way.
 	Quaternionr withoutTurnInPlane(const Quaternionr& q)
 	{

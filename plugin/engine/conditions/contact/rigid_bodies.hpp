@@ -21,7 +21,7 @@ inline Se3r between(const Se3r& a, const Se3r& b, Real part)
 // the plane. std::invalid_argument names what the body is that cannot touch.
 template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body&, const Se3r& at, const gimpm::Grid<Dim>&);
 
-// Of the same body, at another pose. Its axes are turned by what it has turned since the first one.
+// Pose of the same body at another time. Its axes are turned by its rotation since the first one.
 template <int Dim> gimpm::Pose<Dim> poseOf(const Body&, const Se3r& first, const Se3r& now);
 
 // The pose from which a body's turn counts. A Sphere's is one that does not change from run to run, so that the places

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What of rigid bodies is too small for the cells of the grid.
+// Features of rigid bodies that are too small for the cells of the grid.
 #include "core/terms/contact/contact.hpp"
 #include "yade_api/types.hpp"
 

@@ -38,11 +38,11 @@ public:
 		  "A level that changes, in place of *level*: a sequence of (time [s], height [m]); empty, the default: it stays.", curveOrNothing);
 		v("flux", &MpmDrain::flux, 0, "Volume that leaves by area and time [m/s], whatever the pressure; < 0 enters. NaN, the default: see *pressure*.",
 		  admitting("a finite number [m/s], or NaN, the default", [](Real value) { return !std::isinf(value); }));
-		v("seepage", &MpmDrain::seepage, 0, "Whether water can leave only: where its pressure is below that outside nothing passes.");
+		v("seepage", &MpmDrain::seepage, 0, "True: water can leave only; where its pressure is below that outside nothing passes.");
 		v("curve", &MpmDrain::curve, 0, "Factor [-] of *pressure* or *flux* as a sequence of (time [s], factor); empty, the default: 1.",
 		  curveOrNothing);
 		v("conductance", &MpmDrain::conductance, 0,
-		  "Of the skin, over the conductivity of the soil and the size of its cells [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",
+		  "Conductance of the skin, over the conductivity of the soil and the size of its cells [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",
 		  positive);
 		v("discharge", &MpmDrain::discharge, readonly,
 		  "Volume of water that leaves by time [m³/s] in the last converged step; per metre of thickness in plane strain, NaN before the first.");

@@ -49,7 +49,7 @@ Real MpmFlow::end(const Analysis&) const
 
 std::map<string, string> MpmFlow::warnings(const Analysis&, const vector<MaterialPoint>& points, const string&) const
 {
-	constexpr Real           least = 1e-13, most = 1; // of soils: fat clay, and coarse gravel
+	constexpr Real           least = 1e-13, most = 1; // conductivities of soils: fat clay, and coarse gravel
 	std::map<string, string> found;
 	const MpmMaterial*       last = nullptr;
 	for (const MaterialPoint& point : points) {

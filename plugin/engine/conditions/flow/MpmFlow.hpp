@@ -40,9 +40,9 @@ public:
 		v("ghost", &MpmFlow::ghost, 0, "Penalty [-] >= 0 on jumps of the pressure's gradient at nearly empty cells, as *MpmGhost.factor*.",
 		  nonNegative);
 		v("pressureTolerance", &MpmFlow::pressureTolerance, 0,
-		  "With *MpmNewton.stepTolerance*: largest estimated error of pressures in a step [Pa] > 0; steps beyond it are cut, and grow again, up to O.dt. inf: not looked at.",
+		  "Largest estimated error of pressures in a step [Pa] > 0, with *MpmNewton.stepTolerance*; steps beyond it are cut, and grow again, up to O.dt. inf: not looked at.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
-		v("drains", &MpmFlow::drains, 0, "Where water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
+		v("drains", &MpmFlow::drains, 0, "Drains, through which water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
 		v("waterIn", &MpmFlow::waterIn, readonly,
 		  "Volume of water [m³] that has entered by drains since the first step; per metre of thickness in plane strain.");
 		v("waterOut", &MpmFlow::waterOut, readonly, "Volume of water [m³] that has left by drains since the first step.");

@@ -14,7 +14,7 @@ namespace {
 		throw std::invalid_argument("Body #" + std::to_string(point.id) + ": its material '" + point.material->label + "' " + what);
 	}
 
-	// Of a material as the point has it.
+	// Pores of a material as the point has it.
 	gimpm::Pores poresOf(const MaterialPoint& point, const MpmMaterial& m, Real unitWeight)
 	{
 		if (m.undrained)
@@ -31,7 +31,7 @@ namespace {
 		return pores;
 	}
 
-	// What is wrong with points that only one process has, all have to hear of.
+	// Refuses in all processes what is wrong with points that only one of them has.
 	template <class F> void refusingTogether(const gimpm::Division& division, F&& take)
 	{
 		string refusal;
@@ -95,7 +95,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
 	takeNodes();
 	takeDrains(model, around);
-	Real       sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
+	Real       sum = 0, fastest = 0; // sum of constrained moduli; largest coefficient of consolidation
 	const Real count = model.division->sum(Real(around.cloud.size()));
 	for (size_t p = 0; p < around.cloud.size(); ++p) {
 		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
@@ -117,7 +117,8 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	};
 }
 
-// Of points that are divided each has its own: the copies of others may be of materials that are not known here.
+// Takes the own points of each process where they are divided: the copies of others may be of materials that are not
+// known here.
 template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, const gimpm::Division& division)
 {
 	const auto& points = around.points;

@@ -13,7 +13,7 @@ public:
 	shared_ptr<MpmBaseMotion> motion; // none: no wave comes from beyond
 	Vector3r                  reaction = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	bool                      hasBegun = false;
-	// What goes on acting [N], and on which nodes of the grid (integer coordinates).
+	// Forces that go on acting [N], and their nodes of the grid (integer coordinates).
 	vector<Vector3r> nodes, borne;
 
 	YADE_API_NAME(MpmAbsorbingBoundary)

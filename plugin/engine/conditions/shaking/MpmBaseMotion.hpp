@@ -23,7 +23,7 @@ public:
 		  "Velocity [m/s] as a sequence of (time [s], velocity), times increasing; linear between, zero before the first and after the last. From a file: "
 		  "mpm.readHistory. Without default.",
 		  admitting("one or more (time, velocity), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
-		v("direction", &MpmBaseMotion::direction, 0, "What the velocity is multiplied by [-], along the axes; finite, not zero.",
+		v("direction", &MpmBaseMotion::direction, 0, "Factors of the velocity along the axes [-], finite, not zero.",
 		  admitting("three finite numbers, not all of them 0", [](const Vector3r& d) { return d.allFinite() && !d.isZero(0); }));
 	}
 

@@ -10,7 +10,7 @@ class MpmFreeField : public Exposed<MpmFreeField, MpmCondition> {
 public:
 	shared_ptr<MpmSurface>    surface; // must be given
 	shared_ptr<MpmBaseMotion> motion;  // none: no wave comes from beyond
-	// What moves and presses beyond, at the vertices, one time after the other; empty: nothing moves.
+	// Motion and forces of the ground beyond, at the vertices, one time after the other; empty: nothing moves.
 	vector<Real>     times, velocities, displacements, forces;
 	Real             distance = std::numeric_limits<Real>::infinity();
 	bool             acts     = true;
@@ -18,7 +18,7 @@ public:
 	Vector3r         reaction = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	bool             hasBegun = false;
 	vector<Vector3r> borne;      // at the vertices, what goes on acting [N]
-	vector<Vector3r> impedances; // of the pieces: rho c_p, rho c_s [N s/m3] and the shear modulus [Pa]
+	vector<Vector3r> impedances; // impedances of the pieces: rho c_p, rho c_s [N s/m3] and the shear modulus [Pa]
 
 	YADE_API_NAME(MpmFreeField)
 	static const char* doc()
@@ -44,13 +44,13 @@ public:
 		v("velocities", &F::velocities, 0,
 		  "Velocities of the free ground [m/s]: x and y of each vertex, at each of *times*, one number after the other.", finiteNumbers);
 		v("displacements", &F::displacements, 0, "Its displacements [m] since the first of *times*, in the order of *velocities*.", finiteNumbers);
-		v("forces", &F::forces, 0, "What its stress, less that at the first of *times*, gives to the vertices [N], in the order of *velocities*.",
+		v("forces", &F::forces, 0, "Forces of its stress, less that at the first of *times*, on the vertices [N], in the order of *velocities*.",
 		  finiteNumbers);
 		v("distance", &F::distance, 0,
-		  "Of the middle of what moves [m] > 0: springs of G / distance along the normal and half of that across it [Pa/m]; inf, the default: none.",
+		  "Distance of the centre of the moving body [m] > 0: springs of G / distance along the normal and half of that across it [Pa/m]; inf, the default: none.",
 		  admitting("a number > 0, or inf: no springs", [](Real value) { return value > 0; }));
 		v("acts", &F::acts, 0, "False: it does nothing, and tells velocities.", AnyValue());
-		v("velocity", &F::velocity, readonly, "Of the vertices in the last converged step [m/s]; empty before the first.");
+		v("velocity", &F::velocity, readonly, "Velocity of the vertices in the last converged step [m/s]; empty before the first.");
 		v("reaction", &F::reaction, readonly, "Force [N] on the body in the last converged step, per metre of thickness, NaN before the first.");
 		v("hasBegun", &F::hasBegun, hidden, "", AnyValue());
 		v("borne", &F::borne, hidden, "", finiteVectors);

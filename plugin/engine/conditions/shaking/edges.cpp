@@ -41,7 +41,7 @@ template <int Dim> void Edges<Dim>::joinMotion(gimpm::Motion<Dim>& joined, const
 	for (const Listed& listed : group)
 		edges.emplace_back(boost::static_pointer_cast<MpmAbsorbingBoundary>(listed.condition), edgeOf(boundaryOf(listed), listed.name(), model.grid));
 	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(model.materials);
-	const auto* masses    = &joined.mass; // which have those of the copies, too, where points are divided
+	const auto* masses    = &joined.mass; // masses that include those of the copies where points are divided
 	for (const auto& [from, edge] : edges)
 		joined.damping.push_back([known = edge, materials, masses](const gimpm::Beginning<Dim>& step) {
 			return std::make_unique<gimpm::Absorption<Dim>>(*known, *materials, *masses, step);

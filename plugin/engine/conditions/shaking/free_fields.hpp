@@ -20,7 +20,7 @@ public:
 private:
 	struct Edge : gimpm::GroundEdge<2> {
 		shared_ptr<MpmFreeField> from;
-		vector<Vector3r>         impedances; // of the pieces
+		vector<Vector3r>         impedances; // impedances of the pieces
 	};
 
 	std::shared_ptr<Edge> edgeOf(const Listed&, const gimpm::Model<2>&, const gimpm::PointCloud<2>&) const;

@@ -29,7 +29,7 @@ public:
 	vector<Vector3r> vertices;
 	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures, waterPressures;
 	vector<Real>     lengths, radii, slopes, elongations, bends, gaps, normals, shears, stuck;
-	vector<Vector3r> bonds; // by integration point ahead of the head and the foot: whether it is active, pressure and shear stress [Pa]
+	vector<Vector3r> bonds; // state by integration point ahead of the head and the foot: whether it is active, pressure and shear stress [Pa]
 
 	YADE_API_NAME(MpmBeam)
 	static const char* doc()
@@ -50,7 +50,7 @@ public:
 		  "EA [N] > 0, by metre of thickness; of a shell E t / (1 - *poisson* ²), t its thickness. Without default.", positive);
 		v("bendingStiffness", &B::bendingStiffness, 0, "EI [N m²] > 0, by metre of thickness; of a shell E t³ / 12 (1 - *poisson* ²). Without default.",
 		  positive);
-		v("poisson", &B::poisson, 0, "Of a shell of revolution: Poisson's ratio [-], from 0 to .5. A beam in the plane has none.",
+		v("poisson", &B::poisson, 0, "Poisson's ratio [-] of a shell of revolution, from 0 to 0.5. A beam in the plane has none.",
 		  admitting("a number from 0 to 0.5", [](Real value) { return value >= 0 && value <= 0.5; }));
 		v("plasticMoment", &B::plasticMoment, 0, "Largest moment [N m] > 0; inf, the default: it does not yield. Not of a shell.",
 		  admitting("a number > 0 [N m], or inf", isPositiveOrInfinite));
@@ -60,7 +60,7 @@ public:
 		  "Axial force [N] that it has as it is put in, tension positive: of a tendon along it, or of a jack. Not of a shell.", finite);
 		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
 		  admitting("places of two or three numbers, all finite", arePoints));
-		v("fixHead", &B::fixHead, 0, "What of its first vertex is held: letters out of 'xyr', r for its rotation.",
+		v("fixHead", &B::fixHead, 0, "Constrained components of its first vertex: letters out of 'xyr', r for its rotation.",
 		  admitting("letters out of 'xyr'", areFixed));
 		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));
 		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1; on that of a shell the sum around its circle.", finite);
@@ -74,29 +74,29 @@ public:
 		  "Angle of friction [rad] of beam and soil, from 0 to below pi/2, which adds to *adhesion* where they press on each other.",
 		  admitting("an angle from 0 to below pi/2 [rad], as radians(30)", isFrictionAngle));
 		v("stiffness", &B::stiffness, 0,
-		  "Of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
+		  "Stiffness of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
 		v("permittivity", &B::permittivity, 0,
-		  "Of the beam for water that crosses it: conductivity over thickness [1/s] >= 0, for mpm.seepage. 0, the default: tight; inf: water passes as if there were no beam.",
+		  "Permittivity for water that crosses the beam: conductivity over thickness [1/s] >= 0, for mpm.seepage. 0, the default: tight; inf: water passes as if there were no beam.",
 		  admitting("a number >= 0 [1/s], or inf", isNonNegativeOrInfinite));
 		v("anchors", &B::anchors, 0,
 		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
 		v("curve", &B::curve, 0,
 		  "Factor [-] of *headForce*, *headMoment*, *contraction*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
-		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
-		v("rotations", &B::rotations, readonly, "How far each vertex has turned [rad], counterclockwise.", AnyValue());
+		v("vertices", &B::vertices, readonly, "Positions of its vertices now [m]; empty before the first step.", AnyValue());
+		v("rotations", &B::rotations, readonly, "Rotation of each vertex [rad], counterclockwise.", AnyValue());
 		v("axialForces", &B::axialForces, readonly,
 		  "N [N] between each vertex and the next one, tension positive; of a shell these are by metre of its circles.", AnyValue());
 		v("shearForces", &B::shearForces, readonly, "Q [N] between each vertex and the next one: the slope of *moments* along the line.", AnyValue());
 		v("moments", &B::moments, readonly, "M [N m] at each vertex, positive where the line is bent to its left: its right side is stretched.",
 		  AnyValue());
 		v("hoopForces", &B::hoopForces, readonly,
-		  "Of a shell: N around its circles [N/m] in the middle between each vertex and the next one, tension positive.", AnyValue());
+		  "Force N around the circles of a shell [N/m] in the middle between each vertex and the next one, tension positive.", AnyValue());
 		v("hoopMoments", &B::hoopMoments, readonly,
-		  "Of a shell: M [N m/m] that bends its circles, at each vertex, positive where these are bent to the left of the line.", AnyValue());
+		  "Moment M [N m/m] that bends the circles of a shell, at each vertex, positive where these are bent to the left of the line.", AnyValue());
 		v("pressures", &B::pressures, readonly,
-		  "What it presses on the soil [Pa] at each vertex, positive to the left of the line: *leftPressures* less *rightPressures*.", AnyValue());
-		v("leftPressures", &B::leftPressures, readonly, "What it presses on the soil to the left of the line [Pa], at each vertex.", AnyValue());
-		v("rightPressures", &B::rightPressures, readonly, "What it presses on the soil to the right of the line [Pa], at each vertex.", AnyValue());
+		  "Pressure on the soil [Pa] at each vertex, positive to the left of the line: *leftPressures* less *rightPressures*.", AnyValue());
+		v("leftPressures", &B::leftPressures, readonly, "Pressure on the soil to the left of the line [Pa], at each vertex.", AnyValue());
+		v("rightPressures", &B::rightPressures, readonly, "Pressure on the soil to the right of the line [Pa], at each vertex.", AnyValue());
 		v("waterPressures", &B::waterPressures, readonly,
 		  "Pressure of the water (MpmWater) to the left of the line less that to its right [Pa], at each vertex: it presses on the beam itself.",
 		  AnyValue());

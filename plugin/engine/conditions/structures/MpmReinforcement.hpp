@@ -65,9 +65,9 @@ public:
 		  nonNegative);
 		v("curve", &B::curve, 0, "Factor [-] of *pull* and *pretension*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
 		  curveOrNothing);
-		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
+		v("vertices", &B::vertices, readonly, "Positions of its vertices now [m]; empty before the first step.", AnyValue());
 		v("axialForces", &B::axialForces, readonly, "Force [N] between each vertex and the next one, tension positive.", AnyValue());
-		v("slips", &B::slips, readonly, "How far each vertex has moved against the soil [m], positive away from the head.", AnyValue());
+		v("slips", &B::slips, readonly, "Displacement of each vertex against the soil [m], positive away from the head.", AnyValue());
 		v("bondForces", &B::bondForces, readonly, "Force [N] by which the soil holds each vertex that slips, positive towards the head.", AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
 		v("strains", &B::strains, hidden, "", AnyValue());

@@ -72,7 +72,7 @@ namespace {
 		return beam;
 	}
 
-	// What nodes that are tied have not been shown to go with; empty: nothing.
+	// Features that nodes with affine constraints have not been shown to go with; empty: nothing.
 	string cannotPart(const Analysis& analysis)
 	{
 		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
@@ -171,7 +171,7 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 		}
 	}
 	for (size_t i = 0; i < structures.size(); ++i) {
-		auto& pressures = sources[i].from->waterPressures; // which MpmWater sets
+		auto& pressures = sources[i].from->waterPressures; // MpmWater sets them
 		pressures.assign(structures[i].beam->places.size(), 0);
 		structures[i].beam->waterPressure = &pressures;
 		joinStructure<2>(structures[i], model);

@@ -29,9 +29,9 @@ private:
 	MpmCondition::Group         group;
 	vector<Source>              sources;
 	vector<gimpm::Structure<2>> structures;
-	string                      inItsWay; // what there is besides that does not go with nodes that are tied; empty: nothing
-	vector<int>                 sides;    // of points, as the step begins
-	vector<size_t>              crossed;  // by structure: points that have gone through it
+	string                      inItsWay; // feature of the scene that does not go with nodes with affine constraints; empty: nothing
+	vector<int>                 sides;    // sides of points, as the step begins
+	vector<size_t>              crossed;  // points that have gone through a structure, by structure
 
 	bool waterFlows = false; // MpmFlow, which knows of no beams
 

@@ -6,7 +6,7 @@
 
 namespace yade {
 
-// As a script gives them: each of two or three numbers.
+// Points as a script gives them: each of two or three numbers.
 using Points = vector<vector<Real>>;
 
 inline vector<Vector3r> placesOf(const Points& points)

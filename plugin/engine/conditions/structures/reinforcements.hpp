@@ -16,7 +16,7 @@ template <int Dim> std::vector<gimpm::Vec<Dim>> fineLine(const std::vector<gimpm
 // A bar as the core knows it, new or as the last step has left it, and the way back.
 template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement&, const string& name, const gimpm::Grid<Dim>&);
 template <int Dim> void                      scatterBar(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);
-// What acts on it at the end of a step.
+// Sets the loads of a bar at the end of a step.
 template <int Dim> void loadBar(gimpm::Reinforcement<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);
 
 // Makes a structure act, which must stay where it is in memory.

@@ -97,8 +97,9 @@ void MpmSurface::requireAdmissible() const
 }
 
 namespace {
-	// Of a segment or triangle, what it may have in common with one neighbour, and whether it goes along it from
-	// the lower number of its vertices to the higher one; of a segment its ends, and whether it begins there.
+	// Sides of a segment or triangle, which it may have in common with one neighbour, and whether it goes along
+	// them from the lower number of its vertices to the higher one; of a segment its ends, and whether it begins
+	// there.
 	vector<std::pair<vector<int>, bool>> sidesOf(const vector<int>& piece)
 	{
 		if (piece.size() == 2) return { { { piece[0] }, true }, { { piece[1] }, false } };

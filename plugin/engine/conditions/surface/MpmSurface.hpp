@@ -23,10 +23,10 @@ public:
 	{
 		v("vertices", &MpmSurface::vertices, 0, "Current positions [m], finite; z is not used in the plane. Read as a tuple.",
 		  admitting("two or more points, all finite", areFinite));
-		v("pieces", &MpmSurface::pieces, 0, "Of each segment or triangle, the two or three numbers of its vertices. Read as a tuple.",
+		v("pieces", &MpmSurface::pieces, 0, "Segments or triangles, each as the two or three numbers of its vertices. Read as a tuple.",
 		  admitting("one or more pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmSurface::initialVertices, readonly,
-		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of a cell.");
+		  "Positions of the vertices at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of a cell.");
 	}
 
 	// 2 for segments, 3 for triangles

@@ -16,7 +16,7 @@ public:
 	void advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advanceTo(step.looked); }
 	Work work(const StepOutcome<Dim>&) const override;
 	void reach(const StepOutcome<Dim>&) override;
-	// Whether one that has not acted yet is inside of the body.
+	// Doubt about a load that has not acted yet: it is not inside of the body.
 	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override;
 
 private:

@@ -60,7 +60,7 @@ public:
 		  "'everywhere': in the pores and, with the same pressure, on the body's surface; 'pores': surface dry, as after rapid drawdown; 'outside': no water in the pores.",
 		  oneOf("everywhere", "pores", "outside"));
 		v("onBoundaries", &MpmWater::onBoundaries, readonly,
-		  "Of each of the engine's *boundaries*, the part [N] of its reaction that is due to the water's pressure in its place.");
+		  "Part [N] of the reaction of each of the engine's *boundaries* that is due to the water's pressure in its place.");
 		v("table", &MpmWater::table, hidden, "", AnyValue());
 		v("next", &MpmWater::next, hidden, "", AnyValue());
 		v("tableGrid", &MpmWater::tableGrid, hidden, "", AnyValue());

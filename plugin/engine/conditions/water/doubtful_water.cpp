@@ -9,14 +9,14 @@ namespace yade {
 using gimpm::sentence;
 
 namespace {
-	// What there is of a body along an axis.
+	// Extent of a body along an axis.
 	struct Extent {
 		Real low = std::numeric_limits<Real>::infinity(), high = -low;
 
 		void take(Real middle, Real half) { low = std::min(low, middle - half), high = std::max(high, middle + half); }
 	};
 
-	// Whether anything holds soil at this coordinate along the axis, or may.
+	// True if anything constrains soil at this coordinate along the axis, or may.
 	bool isHeld(const Analysis& analysis, int axis, Real place)
 	{
 		const auto all = analysis.conditions();
@@ -37,7 +37,7 @@ string warningOfWeight(const MpmWater& water, const Analysis& analysis, const st
 {
 	// N/m3, of a fluid under the gravity of the earth.
 	constexpr Real lightest = 500, earth = 9.81;
-	// Of water, fresh or salt.
+	// Density of water, fresh or salt.
 	const auto isDensity = [](Real weight) { return weight >= 950 && weight <= 1100; };
 	if (analysis.gravity.norm() <= 1 || water.hasFunction()) return "";
 	const string has = sentence(name, " has weight = ", water.weight, ", in N/m3; was it meant in ");

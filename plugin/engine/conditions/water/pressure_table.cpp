@@ -136,7 +136,7 @@ namespace {
 		return nodes;
 	}
 
-	// What the pressure gains along each axis over a period of the grid: the same in all cells that hold points, or
+	// Gain of the pressure along each axis over a period of the grid: the same in all cells that hold points, or
 	// there is no such state.
 	template <int Dim> gimpm::Vec<Dim> fallOf(const PressureAt& values, const vector<Key>& cells, const gimpm::Grid<Dim>& grid, const string& name)
 	{
@@ -146,7 +146,7 @@ namespace {
 		if (!grid.isPeriodic()) return none;
 		const vector<Key> nodes = nodesAround(cells, 0, grid);
 		for (int a = 0; a < Dim; ++a) {
-			Key at = 0; // where it is known
+			Key at = 0; // node at which it is known
 			for (const Key node : nodes) {
 				const auto far = values.find(node + grid.period[a] * gimpm::Grid<Dim>::keyStep(a));
 				if (grid.period[a] == 0 || gimpm::Grid<Dim>::index(node)[a] != 0 || far == values.end()) continue;
@@ -279,7 +279,7 @@ PressureInTime<Dim>::PressureInTime(
 	const PressureAt later   = isNext ? valuesOf<Dim>(water.next) : earlier;
 	for (const auto& [key, value] : later) {
 		nodes.push_back(key), after.push_back(value);
-		before.push_back(earlier.try_emplace(key, value).first->second); // as the step ends, where it was not known
+		before.push_back(earlier.try_emplace(key, value).first->second); // value as the step ends, where it was not known
 	}
 	fallBefore = fallOf(earlier, cells, grid, name), fallAfter = fallOf(later, cells, grid, name);
 	besideBefore = placesOf(water.besideWalls), besideAfter = isNext ? placesOf(water.nextBesideWalls) : besideBefore;
@@ -314,7 +314,7 @@ template <int Dim> Real PressureInTime<Dim>::besideAt(const WallInWater::Vec2& p
 
 template <int Dim> vector<Real> PressureInTime<Dim>::jumps(const WallInWater& wall, Real time) const
 {
-	constexpr Real roundOff = 1e-3; // of a pressure that goes on across the beam, between places on its two sides
+	constexpr Real roundOff = 1e-3; // tolerance for a pressure that is continuous across the beam, between positions on its two sides
 	const Real     share    = shareAt(time);
 	vector<Real>   all;
 	Real           largest = 0, most = 0;

@@ -35,7 +35,7 @@ private:
 		gimpm::LoadCurve     curve;
 		// Pressure of a function; null: of a level.
 		std::shared_ptr<const PressureInTime<Dim>> given;
-		int                                        axis; // of gravity
+		int                                        axis; // axis of gravity
 		Real                                       up, cellSize;
 	};
 	Pressure pressureAt(const Source&, Real time) const;

@@ -39,7 +39,7 @@ public:
 			  return all.size() <= mostStates && std::all_of(all.begin(), all.end(), [](Real x) { return std::isfinite(x); });
 		  }));
 		v("reentrant", &M::reentrant, 0,
-		  "Whether several threads may call it at a time; if it keeps variables from call to call (SAVE, COMMON), they may not.");
+		  "True: several threads may call it at a time; if it keeps variables from call to call (SAVE, COMMON), they may not.");
 	}
 	void requireAdmissible() const override;
 };

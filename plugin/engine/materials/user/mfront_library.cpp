@@ -65,7 +65,7 @@ namespace {
 		return "";
 	}
 
-	// What it calls parameters are here those that the user gives; MFront has elastic ones before its own.
+	// Parameters here are those that the user gives; MFront has elastic ones before its own.
 	vector<string> parametersOf(const Symbols& law)
 	{
 		vector<string> all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What a library says of a law that MFront has written into it, with the generic interface.
+// Description of a law that MFront has written into a library, with the generic interface.
 #include "core/materials/mfront.hpp"
 #include "yade_api/types.hpp"
 
@@ -13,10 +13,11 @@ struct MfrontDescription {
 	vector<Real>                         external; // values of its external variables
 	string                               reason;   // why it is not admitted
 
-	int numbers() const; // of the variables
+	int numbers() const; // number of numbers of the variables
 };
 
-// Of a library that is open. Empty where the law is not MFront's, "Generic" for its generic interface.
+// Interface of a law in a library that is open. Empty where the law is not MFront's, "Generic" for its generic
+// interface.
 string            mfrontInterface(void* library, const string& law);
 MfrontDescription describeMfront(void* library, const string& law);
 
