@@ -18,10 +18,10 @@ PetscErrorCode begin()
 	PetscBool isReady;
 	PetscCall(PetscInitialized(&isReady));
 	if (isReady) return 0;
-	// What the user's files and variables say is meant for other programs.
+	// Files and variables of the user are meant for other programs.
 	PetscCall(PetscOptionsSetValue(nullptr, "-skip_petscrc", "1"));
 	PetscCall(PetscOptionsSetValue(nullptr, "-no_signal_handler", "1"));
-	PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_MULTIPLE; // of which mpi4py makes use if it comes later
+	PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_MULTIPLE; // mpi4py makes use of it if it comes later
 	// without mpirun, OpenMPI would start a process of its own beside this one
 	if (!std::getenv("OMPI_COMM_WORLD_RANK")) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 	return PetscInitializeNoArguments();

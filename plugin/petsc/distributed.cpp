@@ -20,12 +20,12 @@ bool beginProcesses(int* rank, int* size, char* reason, int length)
 
 struct Solver {
 	const bool                isShared;
-	bool                      hasFailed = false;                ///< what is not shared, since it was given its matrix
-	Mat                       K = nullptr, symmetric = nullptr; ///< of the last matrix; the same where it is symmetric
+	bool                      hasFailed = false;                ///< local failure since the matrix was given, which is not shared
+	Mat                       K = nullptr, symmetric = nullptr; ///< last matrix; the same where it is symmetric
 	PC                        multigrid = nullptr;
 	KSP                       factor    = nullptr;
 	Vec                       b = nullptr, x = nullptr;
-	std::vector<BlockOfField> fields; ///< of several
+	std::vector<BlockOfField> fields; ///< blocks of several fields
 
 	explicit Solver(bool isShared) : isShared(isShared) { }
 	Solver(const Solver&)            = delete;
@@ -68,14 +68,14 @@ PetscErrorCode takeMatrix(Solver& s, const gimpm::DistributedRows& rows)
 	return MatCreateVecs(s.K, &s.x, &s.b);
 }
 
-/// As in one process (multigrid.cpp).
+/// Multigrid as in one process (multigrid.cpp).
 PetscErrorCode makeMultigrid(Solver& s)
 {
 	PetscCall(PCDestroy(&s.multigrid));
 	PetscCall(PCCreate(s.comm(), &s.multigrid));
 	PetscCall(PCSetOptionsPrefix(s.multigrid, "mpm_"));
 	PetscCall(PCSetOperators(s.multigrid, s.symmetric, s.symmetric));
-	PetscCall(PetscOptionsSetValue(nullptr, "-mat_no_inode", "1")); // of matrices that GAMG makes
+	PetscCall(PetscOptionsSetValue(nullptr, "-mat_no_inode", "1")); // for matrices that GAMG makes
 	PetscCall(s.fields.empty() ? useMultigrid(s.multigrid) : useMultigridByField(s.multigrid, s.fields));
 	return PetscOptionsClearValue(nullptr, "-mat_no_inode");
 }
@@ -151,7 +151,7 @@ PetscErrorCode makeFactor(Solver& s, double smallestPivot, int moreMemory, PCFai
 	PetscBool isKnown, isSymmetric;
 	PetscCall(MatIsSymmetricKnown(s.K, &isKnown, &isSymmetric));
 	isSymmetric = PetscBool(isKnown && isSymmetric);
-	PetscCall(PCSetType(pc, isSymmetric ? PCCHOLESKY : PCLU)); // of a matrix that is not positive definite, too
+	PetscCall(PCSetType(pc, isSymmetric ? PCCHOLESKY : PCLU)); // for a matrix that is not positive definite, too
 	PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 	PetscCall(PCFactorSetUpMatSolverType(pc));
 	PetscCall(PCFactorGetMatrix(pc, &F));

@@ -8,7 +8,7 @@ namespace {
 PetscErrorCode findBlock(const CompressedRows& rows, int before, int width, IS* block)
 {
 	std::vector<int> numbers;
-	int              first = 0; // of this process
+	int              first = 0; // first row of this process
 	MPI_Exscan(&rows.rows, &first, 1, MPI_INT, MPI_SUM, rows.comm);
 	for (int node = 0; node < rows.rows / rows.dim; ++node)
 		for (int i = 0; i < width; ++i)

@@ -15,7 +15,8 @@ public:
 	IS rows = nullptr;
 };
 
-/// Of rows node after node with the unknowns of all fields. `position` as of addRigidMotions(), for the first field.
+/// Blocks of rows node after node with the unknowns of all fields. `position` as of addRigidMotions(), for the first
+/// field.
 PetscErrorCode findBlocks(const CompressedRows&, int fields, const int* widths, const double* position, std::vector<BlockOfField>&);
 
 /// Smoothed aggregation; of neighbours of neighbours on the first level.

@@ -10,12 +10,12 @@ PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K)
 		PetscCall(MatCreate(rows.comm, K));
 		PetscCall(MatSetSizes(*K, rows.rows, rows.rows, rows.all, rows.all));
 		PetscCall(MatSetBlockSize(*K, rows.dim));
-		PetscCall(MatSetType(*K, MATAIJ)); // of which the one or the other follows
+		PetscCall(MatSetType(*K, MATAIJ)); // the type of one process or of several follows
 		PetscCall(MatSeqAIJSetPreallocationCSR(*K, rows.start, rows.column, rows.value));
 		PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, rows.value));
 	}
 	PetscCall(MatSetBlockSize(*K, rows.dim));
-	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // whose product takes longer
+	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // their product takes longer
 	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and
 	// an iteration without end.
 	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));

@@ -5,7 +5,7 @@
 
 /// Rows of a process, compressed, as the core gives them.
 struct CompressedRows {
-	MPI_Comm      comm; ///< of those that share the matrix
+	MPI_Comm      comm; ///< communicator of those that share the matrix
 	int           dim;  ///< unknowns a node
 	int           rows, all;
 	const int *   start, *column;

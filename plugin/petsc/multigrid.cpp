@@ -70,7 +70,7 @@ void* create(const gimpm::MultigridMatrix* K, char* reason, int length)
 	const Errors errors(reason, length);
 	if (begin()) return nullptr;
 	auto h = std::make_unique<Hierarchy>(*K);
-	PetscOptionsSetValue(nullptr, "-mat_no_inode", "1"); // of matrices that GAMG makes
+	PetscOptionsSetValue(nullptr, "-mat_no_inode", "1"); // for matrices that GAMG makes
 	const PetscErrorCode code = setUp(*h);
 	PetscOptionsClearValue(nullptr, "-mat_no_inode");
 	if (code && K->isShared) stop(reason);

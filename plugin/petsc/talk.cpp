@@ -8,7 +8,7 @@ MPI_Comm comm = MPI_COMM_NULL;
 
 namespace {
 
-double bytes = 0; // that this process has sent to others, besides what PETSc has
+double bytes = 0; // bytes that this process has sent to others, besides what PETSc has
 
 /// Waits as MPI_Wait() does, but not for a process that has come to the end of its script, of which yade.mpm.processes
 /// tells.

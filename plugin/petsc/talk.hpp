@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What processes tell each other by MPI: see DistributedModule.
+// Communication between processes by MPI: see DistributedModule.
 #pragma once
 #include "core/parallel/processes.hpp"
 #include <petscsys.h> // MPI without its old interface for C++
@@ -17,4 +17,4 @@ void   smallest(std::int64_t* numbers, int count);
 void   gather(double* all, const int* start);
 void   exchange(const gimpm::Message* messages, int count);
 void   tell(char* text, int length, int from);
-double sent(); ///< that of PETSc, too
+double sent(); ///< bytes sent, those of PETSc included

@@ -91,7 +91,7 @@ string AttributeTable::names(bool areReadonly) const
 {
 	string names = base ? base->names(areReadonly) : "";
 	for (const auto& attribute : attributes_) {
-		// That of a base.
+		// Skips an attribute that a base has listed.
 		const bool isListed = (", " + names + ",").find(", " + string(attribute->name) + ",") != string::npos;
 		if (attribute->is(hidden) || attribute->is(readonly) != areReadonly || isListed) continue;
 		names += (names.empty() ? "" : ", ") + string(attribute->name);

@@ -12,7 +12,7 @@
 
 namespace yade {
 
-// What is said of an attribute of any type.
+// Description of an attribute of any type.
 struct ListedAttribute {
 	const char* className;
 	const char* name;
@@ -126,7 +126,7 @@ private:
 
 class AttributeTable {
 public:
-	AttributeTable* base = nullptr; // of the plugin's class that this one derives from
+	AttributeTable* base = nullptr; // table of the plugin's class that this one derives from
 
 	explicit AttributeTable(const char* ofClass) : className_(ofClass) { }
 
@@ -136,7 +136,7 @@ public:
 		if (!(flags & noSave)) mark(name), mark(typeid(T).name());
 	}
 
-	// Whether there is one of this name.
+	// Query and access by name.
 	bool     assign(Serializable&, const string& name, const py::object& value) const;
 	py::dict read(const Serializable&) const;
 	void     requireAdmitted(const Serializable&) const;
@@ -159,7 +159,7 @@ private:
 		std::uint64_t format = format_;
 		try {
 			archive& boost::serialization::make_nvp("format", format);
-		} catch (const boost::archive::archive_exception&) { // of XML that has something else in this place
+		} catch (const boost::archive::archive_exception&) { // XML that has something else in this place
 			if (!Archive::is_loading::value) throw;
 			format = 0;
 		}
@@ -169,7 +169,8 @@ private:
 	// Names and types of what is saved, in their order, make the format (hash FNV-1a).
 	void mark(const char* text);
 
-	// Of the plugin's classes that it derives from, too: settings, or results that can only be read.
+	// Attributes, those of the plugin's classes that it derives from included: settings, or results that can only
+	// be read.
 	string            names(bool areReadonly) const;
 	const Attribute*  find(const string& name) const;
 	void              keep(const Attribute*);

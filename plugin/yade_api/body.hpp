@@ -171,7 +171,7 @@ public:
 	YADE_API_OVERRIDES(Body)
 };
 
-// Of its members only the last is used: bodies are counted, looked at and added by its exported functions.
+// Only the last of its members is used: bodies are counted, read and added by its exported functions.
 class BodyContainer : public Serializable {
 	BodyContainer();
 	vector<shared_ptr<Body>> body;

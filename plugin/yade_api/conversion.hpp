@@ -196,7 +196,7 @@ template <class T> struct Conversion<vector<T>> {
 	}
 };
 
-// Whether a value is what a sequence of type T wants as item: somebody has forgotten the brackets.
+// True if a value is an item of a sequence of type T: somebody has forgotten the brackets.
 template <class T> struct ItemOf {
 	static bool is(const py::object&) { return false; }
 };

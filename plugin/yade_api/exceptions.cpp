@@ -45,7 +45,7 @@ void endRun(const std::exception& error)
 
 // The first error of O.step(), which has returned when Python runs this.
 static struct {
-	std::mutex guard; // of the threads of the region
+	std::mutex guard; // mutex of the threads of the region
 	PyObject*  type = nullptr;
 	string     text;
 } kept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// How a class of this plugin becomes a class of YADE: known by name, saved, and shown in Python with its documentation.
+// Base of each class of this plugin that becomes a class of YADE: known by name, saved, and shown in Python with its
+// documentation.
 //
 // The header of a class says what it is:
 //

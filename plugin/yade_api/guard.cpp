@@ -70,7 +70,7 @@ namespace {
 		if (!dlopen(plugin.c_str(), RTLD_NOW)) throw std::runtime_error(dlerror());
 	}
 
-	// What went wrong, or nothing. No exception may leave: it would end YADE.
+	// Opens the plugin; returns the cause of a failure, or nothing. No exception may leave: it would end YADE.
 	string open()
 	{
 		try {

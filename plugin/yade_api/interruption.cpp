@@ -10,8 +10,8 @@
 namespace yade {
 
 namespace {
-	std::atomic_int  presses { 0 };         // of Ctrl-C
-	std::atomic_bool hasEndedRun { false }; // by Ctrl-C, which Python has not been told yet
+	std::atomic_int  presses { 0 };         // presses of Ctrl-C
+	std::atomic_bool hasEndedRun { false }; // true if Ctrl-C has ended a run, and Python has not been told yet
 	struct sigaction python = {};           // Python's handler, which ours stands in front of
 	thread_local int seen   = -1;           // presses before this thread, which lives as long as one O.run(), or handled by Python
 
@@ -38,7 +38,7 @@ namespace {
 		sigaction(SIGINT, &ours, nullptr);
 	}
 
-	// Whether Ctrl-C is for the run: YADE waits for it in Python's main thread, and the script has no handler of
+	// True if Ctrl-C is for the run: YADE waits for it in Python's main thread, and the script has no handler of
 	// its own. Otherwise Python has handled the signal, since its main thread executes Python: then it executes the
 	// call below, too.
 	bool isForTheRun(const std::atomic_bool& isRunning)

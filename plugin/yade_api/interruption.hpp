@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Whether a long step is to be given up: O.pause(), O.reset(), the end of the process, or Ctrl-C.
+// Request to give up a long step: O.pause(), O.reset(), the end of the process, or Ctrl-C.
 //
 // YADE waits for its background thread, in O.run(n, wait=True) and O.wait(), without looking at signals: Python would
 // raise KeyboardInterrupt only when the whole run is over. So that thread looks itself.
@@ -32,7 +32,7 @@ private:
 	const bool          inBackground;
 	const ThreadRunner* runner; // outlives the step of its thread
 	bool                byKey = false;
-	PyObject *          type = nullptr, *value = nullptr, *traceback = nullptr; // what Python's handler has raised
+	PyObject *          type = nullptr, *value = nullptr, *traceback = nullptr; // exception that Python's handler has raised
 };
 
 } // namespace yade

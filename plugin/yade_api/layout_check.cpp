@@ -100,7 +100,7 @@ static void checkThreadRunner(LayoutCheck& check)
 	if (!omega.simulationLoop || omega.isRunning()) return;
 	const ThreadRunner& runner = *omega.simulationLoop;
 	const size_t        size   = malloc_usable_size(omega.simulationLoop.get());
-	// Of one piece of memory.
+	// ThreadRunner is one piece of memory.
 	check.require(sizeof(ThreadRunner) <= size && size < sizeof(ThreadRunner) + 32, "size of ThreadRunner");
 	check.require(!runner.looping && !runner.workerThrew, "ThreadRunner.workerThrew");
 }

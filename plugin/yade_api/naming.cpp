@@ -112,7 +112,7 @@ namespace {
 		raisePython(exception, py::extract<string>(self.attr("__dict__")[sentenceOfCopy]));
 	}
 
-	// Of names that a tuple does not have, those of a list are explained.
+	// Explains names of a list's methods, which a tuple does not have.
 	py::object missing(const py::object& self, const string& name)
 	{
 		if (PyObject_HasAttrString(reinterpret_cast<PyObject*>(&PyList_Type), name.c_str())) refuseChange(self, PyExc_AttributeError);

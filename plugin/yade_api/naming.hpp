@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What a script is told that has misspelt a name, or treats a copy as if it were the attribute itself.
+// Messages for a script that has misspelt a name, or treats a copy as if it were the attribute itself.
 #include "yade_api/types.hpp"
 
 namespace yade {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What makes a class of this plugin known to YADE (yade_api/exposed.hpp): for the source file of the class.
+// Registration of a class of this plugin with YADE (yade_api/exposed.hpp): for the source file of the class.
 #include "yade_api/attribute.hpp"
 #include "yade_api/exposed.hpp"
 #include "yade_api/plugin_classes.hpp"

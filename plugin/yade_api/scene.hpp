@@ -83,7 +83,7 @@ public:
 	vector<shared_ptr<DisplayParameters>> dispParams;
 	Scene();
 	~Scene() override;
-	// Whether a TimeStepper among the engines sets dt; std::runtime_error if there are several.
+	// True if a TimeStepper among the engines sets dt; std::runtime_error if there are several.
 	bool timeStepperActive();
 	YADE_API_OVERRIDES(Scene)
 };

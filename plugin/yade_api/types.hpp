@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// What is shared with libyade.so must have default visibility: type information, singletons, vtables.
+// Symbols that are shared with libyade.so must have default visibility: type information, singletons, vtables.
 #pragma GCC visibility push(default)
 #include <boost/enable_shared_from_this.hpp>
 #include <boost/python/class.hpp>

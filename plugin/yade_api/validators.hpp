@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What values an attribute admits: the optional last argument in the attribute list of a class, as in
+// Values that an attribute admits: the optional last argument in the attribute list of a class, as in
 //
 //	v("young", &MpmElasticMat::young, 0, "Young's modulus [Pa].", positive);
 //

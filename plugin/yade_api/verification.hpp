@@ -3,8 +3,8 @@
 
 namespace yade {
 
-// What can be checked only when YADE has started: the complete layout, and that YADE knows every class of the plugin. A
-// Python ImportError says what is wrong.
+// Checks that are possible only when YADE has started: the complete layout, and that YADE knows every class of the
+// plugin. A Python ImportError says what is wrong.
 void verifyPlugin();
 
 } // namespace yade

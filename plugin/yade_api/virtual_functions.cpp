@@ -16,7 +16,7 @@ namespace {
 		const char* name;
 	};
 
-	// By the Itanium C++ ABI a pointer to a virtual function is its offset in the table plus 1.
+	// A pointer to a virtual function is its offset in the table plus 1, by the Itanium C++ ABI.
 	template <class F> size_t offsetOf(F function)
 	{
 		std::ptrdiff_t first;
@@ -85,7 +85,7 @@ namespace {
 		return start != string::npos && (found[end] == '(' || found[end] == '[');
 	}
 
-	// What differs in the table of a class; nothing: ''.
+	// Differences in the table of a class; none: ''.
 	string difference(const string& className, const Functions& functions, size_t ofOtherBases)
 	{
 		const string table = "_ZTVN4yade" + std::to_string(className.size()) + className + "E";
