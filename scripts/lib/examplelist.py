@@ -31,7 +31,7 @@ def listed():
 	entries = sorted((entry(path) for path in paths if isForUsers(path)), key=lambda one: ('/tasks/' not in one[0], one[0]))
 	lines = [f'        ({path!r}, {sentence!r},\n         {words!r}),' for path, sentence, words in entries]
 	return '\n'.join([
-	        '# SPDX-License-Identifier: GPL-2.0-or-later', '"""What examples there are: path, what it is, words. Written by scripts/lib/examplelist.py, from the scripts."""', 'scripts = [', *lines, ']', ''
+	        '# SPDX-License-Identifier: GPL-2.0-or-later', '"""List of examples: path, what it is, words. Written by scripts/lib/examplelist.py, from the scripts."""', 'scripts = [', *lines, ']', ''
 	])
 
 

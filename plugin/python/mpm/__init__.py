@@ -107,7 +107,7 @@ __all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geost
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
-	_thing.__module__ = __name__  # where it is found by that name
+	_thing.__module__ = __name__  # the name by which it is found
 for _name in stages.__all__:
 	setattr(stages, _name, _telling(getattr(stages, _name)))
 

@@ -11,11 +11,11 @@ from .messages import brief, pathOf
 standardGravity = 9.80665  # [m/s2]
 unitsOf = {'acceleration': {'g': standardGravity, 'm/s2': 1., 'cm/s2': 0.01}, 'velocity': {'m/s': 1., 'cm/s': 0.01}}
 _fewest = 8  # samples that a record must have
-_tolerance = 0.02  # of the step: how far times may be from equal steps, as they are written with few digits
+_tolerance = 0.02  # largest difference of times from equal steps, as a part of the step: they are written with few digits
 
 
 def read(source, quantity, unit, channel):
-	"""What a source has: `begin`, the time of the first sample [s], `step` [s], `values` in SI units, the `name` of the source, `unit`, `title` and `isCorrected` as they were found.
+	"""Data of a source: `begin`, the time of the first sample [s], `step` [s], `values` in SI units, the `name` of the source, `unit`, `title` and `isCorrected` as they were found.
 
 	:param source: path of a file, or pairs (time [s], value)
 	:raises ValueError: no unit, lines that cannot be read, values that are not finite, steps that differ, too few samples.

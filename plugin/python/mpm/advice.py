@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What an analysis will cost, and what it could do without."""
+"""Cost of an analysis, and settings that it could do without."""
 import math
 
 import numpy as np
@@ -24,9 +24,9 @@ _bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
 # the soil does not dilate, 29 % for 3 degrees, 25 % for a quarter of the friction, 19 % for half of it, 13 % for three
 # quarters.
 _littleDilation = 0.5
-_saidBelow = 'locking', 'firstDoubt'  # of what the first step warns: fBar, and motions of a base
-_manyIterations = 250  # of conjugate gradients to 1e-3: as long as multigrid takes with being set up
-_bytesOfOutput = 560  # of a point in an MpmVtkRecorder's files
+_saidBelow = 'locking', 'firstDoubt'  # subjects of warnings of the first step: fBar, and motions of a base
+_manyIterations = 250  # conjugate gradients to 1e-3: as long as multigrid takes with being set up
+_bytesOfOutput = 560  # bytes of a point in an MpmVtkRecorder's files
 
 
 def advise(solver=None):
@@ -62,7 +62,7 @@ def advise(solver=None):
 
 
 class _Scene:
-	"""What advice depends on."""
+	"""Data of the scene that advice depends on."""
 
 	def __init__(self, solver):
 		self.solver, self.work = solver, solver.workload()
@@ -80,13 +80,13 @@ class _Scene:
 		self.recorders = [e for e in wrapper.Omega().engines if isinstance(e, wrapper.MpmVtkRecorder) and not e.dead and e.solver in ('', solver.label)]
 
 	def runsOf(self, engine):
-		"""How often a PeriodicEngine runs until the loads have come to rest; 0 if that is not known."""
+		"""Number of runs of a PeriodicEngine until the loads have come to rest; 0 if that is not known."""
 		periods = [period for period in (engine.iterPeriod * wrapper.Omega().dt, engine.virtPeriod) if period > 0]
 		runs = self.left / min(periods) if periods else 0
 		return math.ceil(runs - 1e-6) if math.isfinite(runs) else runs
 
 	def cellsAStep(self):
-		"""Of the fastest wave, and of the fastest point as it moves and falls; of a MpmDynamicEngine."""
+		"""Cells a step of the fastest wave, and of the fastest point as it moves and falls, in a MpmDynamicEngine."""
 		solver, scene = self.solver, wrapper.Omega()
 		step = scene.dt * max(1, solver.iterPeriod)
 		flown = step * self.velocity + step**2 / 2 * np.array(solver.gravity)
@@ -114,7 +114,7 @@ class _Scene:
 		return [m.label or 'a material without label' for m in self.materials if keeps(m)]
 
 	def contrast(self):
-		own = [self.own('young', material) for material in self.materials if hasattr(material, 'young')] # that of the others varies
+		own = [self.own('young', material) for material in self.materials if hasattr(material, 'young')] # the modulus of the others varies
 		return max(map(np.max, own)) / min(map(np.min, own)) if own else 1
 
 	def uniformAlongZ(self):
@@ -125,7 +125,7 @@ class _Scene:
 
 
 def _notNeeded(scene):
-	"""What the scene uses and does not need, or lacks; numbers are those of examples/trade and examples/extremes."""
+	"""Features that the scene uses and does not need, or lacks; numbers are those of examples/trade and examples/extremes."""
 	solver, found = scene.solver, [f'settings: {sentence}' for about, sentence in scene.solver._doubts().items() if about not in _saidBelow]
 	if scene.dim == 3 and scene.uniformAlongZ():
 		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
@@ -167,7 +167,7 @@ def _notNeeded(scene):
 
 
 def _stepInTime(scene):
-	"""How far waves and points go in a step, and what would be better."""
+	"""Distance that waves and points go in a step, and a better step."""
 	solver, ofWave, ofPoint = scene.solver, *scene.cellsAStep()
 	text = f'O.dt: in a step the fastest wave goes {ofWave:.3g} cells and the fastest point {ofPoint:.3g}; '
 	if solver.scheme == 'explicit': return text + f'scheme=\'explicit\' admits {solver.criticalTimeStep():.3g} s, of which 0.9 are safe.'
@@ -177,7 +177,7 @@ def _stepInTime(scene):
 
 
 def _multigrid(scene):
-	"""Whether conjugate gradients should have algebraic multigrid, and do not."""
+	"""Advice to use algebraic multigrid where conjugate gradients should have it, and do not."""
 	iterations, method = scene.work['iterations'], scene.solver.newton.linearSolver
 	if iterations <= _manyIterations or method == 'amg': return []
 	text = f'linearSolver: conjugate gradients take {iterations} iterations to 1e-3 here; with algebraic multigrid they would take a tenth of that or less. '

@@ -19,7 +19,7 @@ def solverOf(who, solver):
 
 
 def noPoints(who, solver):
-	"""What to say of an engine that has no material points."""
+	"""Message about an engine that has no material points."""
 	if any(isinstance(body.shape, wrapper.MpmPoint) for body in wrapper.Omega().bodies):
 		return f'{who}: none of the material points has a groupMask that goes with mask = {solver.mask} of the MpmImplicitEngine'
 	return f'{who}: the scene has no material points; add them with O.bodies.append(mpm.fill(...))'

@@ -70,7 +70,7 @@ def _pointsOf(body, data, grid):
 
 
 def _density(distance, widths, cellSize):
-	"""What of each point's volume is in a plane so far from its middle [1/m]: boxes as wide as its edges seen along the normal, one after the other, and one of a cell, over which stresses are right on average."""
+	"""Part of each point's volume in a plane so far from its centre [1/m]: boxes as wide as its edges seen along the normal, one after the other, and one of a cell, over which stresses are right on"""
 	widths = np.column_stack([widths, np.maximum(widths.max(axis=1), cellSize)])
 	density = np.zeros(len(distance))
 	for kept in itertools.product((False, True), repeat=widths.shape[1] - 1):  # edges along the plane have no width

@@ -86,7 +86,7 @@ def _count(who, name, value, least):
 
 
 def _parameters(who, material, bounds):
-	"""What is looked for: names and bounds."""
+	"""Parameters to look for: names and bounds."""
 	if not isinstance(bounds, dict): raise TypeError(f'{who}: bounds = {brief(bounds)} must be a dict, as dict(young=(1e6, 1e8))')
 	if not bounds: raise ValueError(f'{who}: bounds = {{}} names no parameter to look for')
 	known = [name for name, value in material.dict().items() if isinstance(value, float) and name != 'density']
@@ -101,7 +101,7 @@ def _parameters(who, material, bounds):
 
 
 def _valuesAt(problem, z):
-	"""Of the parameters, at numbers from 0 to 1."""
+	"""Values of the parameters, at numbers from 0 to 1."""
 	return [p.low * (p.high / p.low)**at if p.byLogarithm else p.low + (p.high - p.low) * at for p, at in zip(problem.parameters, z)]
 
 
@@ -137,7 +137,7 @@ def _residuals(problem, z):
 
 
 def _finite(residuals, count):
-	"""What the search takes as a step too far, instead of residuals that there are not."""
+	"""Residuals that the search takes as a step too far, instead of those that there are not."""
 	return np.full(count, np.inf) if residuals is None else residuals
 
 
@@ -238,7 +238,7 @@ def _rms(values):
 
 
 def _covariance(problem, slopes, residuals):
-	"""Of the numbers from 0 to 1, from the slopes and the scatter of each curve; and which parameters lie in directions in which nothing changes.
+	"""Covariance of the numbers from 0 to 1, from the Jacobian and the scatter of each curve; and which parameters lie in directions in which nothing changes.
 
 	Such directions are known to the round-off of the tests over the span of the differences.
 	"""
@@ -246,7 +246,7 @@ def _covariance(problem, slopes, residuals):
 	isNull = sizes <= 1e-5 * max(sizes[0], 1e-300)
 	isOpen = (np.abs(directions[isNull]) > 1e-3).any(axis=0)
 	inverse = (directions[~isNull].T / sizes[~isNull]**2) @ directions[~isNull]
-	taken = np.einsum('ni,ij,nj->n', slopes, inverse, slopes)  # what the fit takes of the freedom of each reading
+	taken = np.einsum('ni,ij,nj->n', slopes, inverse, slopes)  # part of the freedom of each reading that the fit takes
 	variances, row = np.zeros(len(residuals)), 0
 	for one in [one for test in problem.tests for one in test.curves]:
 		part = slice(row, row + len(one.values))

@@ -39,7 +39,7 @@ def refinementsAt(positions, grid, halvings=1, way=None, margin=None):
 		places = np.empty(0)
 	if places.ndim != 2 or places.shape[1] != 3 or not np.isfinite(places).all():
 		raise ValueError(f'refinementsAt: positions = {brief(positions)} must be an array (N, 3) of finite numbers [m], or bodies')
-	size, origin = grid.cellSize / 2**(halvings - 1), np.array(grid.origin)  # of the cells that are halved last
+	size, origin = grid.cellSize / 2**(halvings - 1), np.array(grid.origin)  # size and origin of the cells that are halved last
 	cells = np.unique(np.floor((places - origin) / size)[:, :grid.dim][:, ::-1], axis=0)  # x fastest
 	ends = np.flatnonzero((np.diff(cells, axis=0) != [0] * (grid.dim - 1) + [1]).any(axis=1)) + 1
 	rows = [row[:, ::-1] for row in np.split(cells, ends) if len(row)]

@@ -63,7 +63,7 @@ def mapOf(field, values=()):
 
 
 def hasSign(field, values):
-	"""Whether its colours are about zero."""
+	"""True if its colours are about zero."""
 	return mapOf(field, values) in ('RdBu_r', 'RdBu')
 
 

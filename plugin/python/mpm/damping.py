@@ -48,7 +48,7 @@ def _numbers(name, value):
 
 
 def schemeDamping(frequencies, solver=None, step=None):
-	"""What the scheme in time of a MpmDynamicEngine makes of free vibrations: damping and longer periods that are of the steps and not of the ground. Nothing is run.
+	"""Damping and longer periods that the time integration of a MpmDynamicEngine gives to free vibrations, and not the ground. Nothing is run.
 
 	By the eigenvalues of one step of an oscillator (T. J. R. Hughes 1987; J. Chung and G. M. Hulbert 1993). Rayleigh damping, and what ghost stabilisation and the
 	way to the grid and back take, are not in it.
@@ -123,7 +123,7 @@ def _motions(solver):
 		for i, one in enumerate(getattr(solver, kind)):
 			if getattr(one, 'motion', None) is not None: yield f'{kind}[{i}].motion', one.motion
 	moving = [(i, one) for i, one in enumerate(solver.loads) if isinstance(one, wrapper.MpmFreeField) and len(one.times)]
-	for i, one in moving[-1:]:  # that of the base, or a side whose first vertex is at the bottom
+	for i, one in moving[-1:]:  # motion of the base, or of a side whose first vertex is at the bottom
 		speed = np.reshape(one.velocities, (len(one.times), -1, 2))[:, 0, 0]
 		yield f'loads[{i}].velocities', SimpleNamespace(history=list(zip(one.times, speed)))
 

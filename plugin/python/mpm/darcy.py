@@ -52,7 +52,7 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 
 
 class SteadySeepage:
-	"""What :func:`seepage` returns."""
+	"""Result of :func:`seepage`."""
 
 	def __init__(self, body, outlets, p):
 		self._body = body
@@ -89,7 +89,7 @@ def _requirePlane(solver, unitWeight):
 
 
 def _conductivities(points, materials, number):
-	"""Of each point, its own or that of its material."""
+	"""Conductivity of each point, its own or that of its material."""
 	found = points['conductivity'] if 'conductivity' in points else np.array([material.conductivity for material in materials])[number]
 	wrong = np.flatnonzero(~(found > 0))
 	if not len(wrong): return found
@@ -229,7 +229,7 @@ class _Wall:
 
 
 class _Leak:
-	"""What passes a wall between soil on both of its sides: *permittivity* times the difference of heads."""
+	"""Flow through a wall between soil on both of its sides: *permittivity* times the difference of heads."""
 
 	def __init__(self, body, wall):
 		corners = np.array(list(itertools.product((0, 1), repeat=2)))

@@ -15,7 +15,7 @@ from .messages import brief, isNumber, place
 from .naming import didYouMean
 from .regions import each
 
-table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
+table = {column['name']: column for column in engine.pointColumns()}  # all columns that there are
 
 
 def arrays():
@@ -50,7 +50,7 @@ def _sayIfRunning():
 
 
 def contactForces(solver=None):
-	"""Where soil touches rigid bodies at the end of the last converged step, and the forces there.
+	"""Contact of soil with rigid bodies at the end of the last converged step: positions and forces.
 
 	:param solver: ``MpmImplicitEngine`` with the contacts; needed if there are several
 	:return: places (N, 3) [m] on the bodies, a quarter of a cell apart, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
@@ -63,7 +63,7 @@ def contactForces(solver=None):
 
 
 def contactFaces(solver):
-	"""Of all places on bodies near the soil: middles (N, 3) [m], forces on the soil (N, 3) [N], and in the plane the ends of their parts of the face (N, 2, 3) [m], else None."""
+	"""Contact points on all bodies near the soil: centres (N, 3) [m], forces on the soil (N, 3) [N], and in the plane the ends of their parts of the face (N, 2, 3) [m], else None."""
 	data = engine.gridCells('contacts', solver)
 	places, force, corners = (np.frombuffer(data[name]).reshape(-1, 3) for name in ('middles', 'field', 'corners'))
 	return places, force, corners.reshape(-1, 2, 3) if solver.grid.dim == 2 else None
@@ -75,7 +75,7 @@ def fields(mask=0):
 
 
 def pointsOf(solver):
-	"""As :func:`withMaterials`, of the points that an engine moves."""
+	"""Same as :func:`withMaterials`, for the points that an engine moves."""
 	return withMaterials(solver.mask)
 
 
@@ -97,7 +97,7 @@ def _asArrays(data):
 
 
 def _shape(column):
-	"""Of a row."""
+	"""Shape of a row."""
 	return {1: (), 3: (3, ), 9: (3, 3)}[column['width']]
 
 
@@ -198,7 +198,7 @@ def _column(name, values, rows):
 
 
 def isParameter(name):
-	"""Whether it is a strength or modulus, of which points may have their own."""
+	"""True for a strength or modulus, of which points may have their own."""
 	return name in table and table[name]['isParameter']
 
 
@@ -226,7 +226,7 @@ def _atPoints(name, column, rows):
 
 
 def _numbers(name, values):
-	"""As an array of float; what NumPy would drop without a word is refused: imaginary parts, and masks of masked arrays."""
+	"""Array of float; values that NumPy would drop without a word are refused: imaginary parts, and masks of masked arrays."""
 	try:
 		array = np.asarray(values)
 		if array.dtype.kind in 'biufO' and not np.ma.is_masked(values): return np.ascontiguousarray(array, dtype=float)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How wrong a result is because of the size of the cells."""
+"""Error of a result that is due to the size of the cells."""
 import math
 import time
 

@@ -9,19 +9,19 @@ _ofEachScene = 'materials', 'materialNumber'
 
 
 def isDivided():
-	"""Whether this process has only its own points of the scene."""
+	"""True if this process has only its own points of the scene."""
 	return count > 1 and engine.isDivided()
 
 
 def idsOfPoints():
-	"""Of all processes (N,), rising; all of them call it."""
+	"""Ids of the points of all processes (N,), rising; all of them call it."""
 	if not isDivided(): return np.frombuffer(engine.idsOfPoints(), np.int64)
 	own = together(engine.idsOfPoints)
 	return np.unique(np.frombuffer(b''.join(gathered(bytes(own))), np.int64))
 
 
 def columnsOfPoints(mask, withDerived):
-	"""As that of the library, of the points of all processes in order of body id; all of them call it. Points that all have, as they have been appended since the last step, are there once."""
+	"""Columns as those of the library, for the points of all processes in order of body id; all of them call it. Points that all have, as they have been appended since the last step, are there once."""
 	if not isDivided(): return engine.columnsOfPoints(mask, withDerived, ())
 	own = together(lambda: engine.columnsOfPoints(mask, withDerived, ()))
 	names = sorted(set().union(*gathered(list(own))))

@@ -108,7 +108,7 @@ def _write(file):
 
 
 def _savePlain(path):
-	"""As O.save, whose errors name neither the file nor the reason."""
+	"""Does the same as O.save, whose errors name neither the file nor the reason."""
 	try:
 		(processes.saveScene or wrapper.Omega.save)(wrapper.Omega(), path, quiet=True)
 	except RuntimeError as error:

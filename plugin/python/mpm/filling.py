@@ -16,7 +16,7 @@ from .naming import didYouMean, materialOf
 from .processes import together
 from .regions import bounds, each, inside, requireRightWay, volumeInBoxes
 
-_bytesOfBody = 1400  # of a material point, its state and its shape
+_bytesOfBody = 1400  # bytes of a material point, its state and its shape
 
 
 def fill(predicate, grid, pointsPerCell, material, body=None, **parameters):
@@ -168,7 +168,7 @@ def _requireRoom(count, room, grid, n):
 
 
 def _ofLeaves(points, grid, n):
-	"""Of the points of cells of the grid, pairs of the size of a cell and the points in cells of that size: where cells are halved there are more of them."""
+	"""Points of cells of the grid, as pairs of the size of a cell and the points in cells of that size: where cells are halved there are more of them."""
 	size = grid.cellSize
 	if not grid.refinements:
 		yield size, points
@@ -192,7 +192,7 @@ def _halved(centres, size, grid, n):
 
 
 def _warnOfVolume(predicate, grid, n, sizes):
-	admitted = 0.02  # of the region
+	admitted = 0.02  # part of the region
 	filled = len(sizes) if sizes[0] == sizes[-1] == grid.cellSize else ((sizes / grid.cellSize)**grid.dim).sum()
 	volume = volumeInBoxes(predicate, grid, n, filled, admitted)
 	if abs(volume - filled) <= admitted * volume: return
@@ -204,7 +204,7 @@ def _warnOfVolume(predicate, grid, n, sizes):
 
 
 def _meant(predicate):
-	"""What could have been meant instead."""
+	"""Hint at an argument that could have been meant instead."""
 	if isinstance(predicate, type): return '; this is a class, of which one is made as in pack.inAlignedBox(low, high)'
 	first = predicate[0] if isinstance(predicate, (list, tuple)) and predicate else None
 	if isinstance(first, wrapper.Body) or type(predicate).__module__ == 'gts':

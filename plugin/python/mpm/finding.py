@@ -37,7 +37,7 @@ def examples(words=''):
 
 
 def _isAbout(word, text):
-	"""Whether a word of the text begins with it, in the singular, or with what the examples call it."""
+	"""True if a word of the text begins with it, in the singular, or with the name of it in the examples."""
 	names = {word, word[:-1] if word.endswith('s') and len(word) > 3 else word, others.get(word, word)}
 	return any(re.search(r'(?<![a-z])' + re.escape(name), text) for name in names)
 

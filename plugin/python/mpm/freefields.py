@@ -12,8 +12,8 @@ from .library import engine as _engine
 from .messages import brief, isNumber
 from .processes import count as _processes
 
-_width = 3  # of a column [cells], the least that a grid may repeat itself after
-_pieces = 4  # of an edge in a cell
+_width = 3  # width of a column [cells], the least that a grid may repeat itself after
+_pieces = 4  # pieces of an edge in a cell
 _settling = 4  # steps at rest, in which a column comes into equilibrium by itself
 
 
@@ -75,7 +75,7 @@ def _requireArguments(solver, until, motion, sides, distance):
 
 
 class _Body:
-	"""What is computed, and where its sides and its base are."""
+	"""Ground that is computed, with its sides and its base."""
 
 	def __init__(self, solver, motion):
 		self.solver, self.motion, self.grid, self.h, self.dt = solver, motion, solver.grid, solver.grid.cellSize, stepOf(solver)
@@ -99,8 +99,8 @@ class _Body:
 		raise ValueError(f"freeField: the {name} edge of the body, at {'xy'[axis]} = {at:g} m, is not on a line of the grid, of which the nearest is at {line:g} m: move it there, or MpmGrid.origin")
 
 	def _isAcross(self, name, one):
-		"""Whether a condition is the same from side to side, so that columns have it, too; ValueError if it holds a side."""
-		if not hasattr(one, 'min'): return True  # of water
+		"""True if a condition is the same from side to side, so that columns have it, too; ValueError if it constrains a side."""
+		if not hasattr(one, 'min'): return True  # water
 		if getattr(one, 'surface', None) is not None: return False
 		if one.min[0] <= self.left and one.max[0] >= self.right:
 			if self.motion is not None and one.max[1] >= self.bottom and 'x' in getattr(one, 'fix', 'x'):
@@ -141,7 +141,7 @@ class _Column:
 		self.line = [(self.x, y, self.body.z) for y in heights]
 
 	def run(self, until):
-		"""What it does until then, as attributes of MpmFreeField."""
+		"""Motion until then, as attributes of MpmFreeField."""
 		start, dt, scene = self.body.solver.loadTime, self.body.dt, wrapper.Omega()
 		scene.switchScene()
 		try:
@@ -167,7 +167,7 @@ class _Column:
 		for number in np.unique(body.material[rows]): self._giveState(rows, body.material[rows] == number)
 
 	def _giveState(self, rows, chosen):
-		"""Of the points of one material, whose law and strengths the columns of values are about."""
+		"""Assigns the columns of the points of one material, whose law and strengths the values are about."""
 		columns = {name: self.body.points[name][rows[chosen]] for name, column in table.items() if column['isGiven'] and name in self.body.points and name not in ('pos', 'pos0', 'stress', 'velocity', 'force')}
 		assign(ids=np.flatnonzero(chosen), **{name: values for name, values in columns.items() if np.isfinite(values).all()})
 
@@ -228,6 +228,6 @@ class _Column:
 
 
 def _copy(condition):
-	"""As given, without what it has come to."""
+	"""Copy of a condition with its settings, without its results."""
 	values = {name: value for name, value in condition.dict().items() if getattr(type(condition), name).fset is not None}
 	return type(condition)(**values)

@@ -14,7 +14,7 @@ from .water import pressuresOfEach
 
 _mostPressed = 6  # K0: the coefficient of passive earth pressure for a friction angle of 45 degrees
 _isotropic = [getattr(wrapper, f'Mpm{name}Mat') for name in ('Elastic', 'VonMises', 'Tresca', 'MohrCoulomb', 'DruckerPrager', 'CamClay', 'HardeningSoil', 'NorSand')]
-_grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # whose hardening follows from the stresses they have borne
+_grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # classes whose hardening follows from the stresses they have borne
 
 
 def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
@@ -98,7 +98,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 
 
 def _areBodies(bodies, materials):
-	"""Of each material whether it is of bodies in the ground."""
+	"""True for each material of bodies in the ground."""
 	labels = [material.label for material in materials]
 	if isinstance(bodies, str) or not all(isinstance(label, str) for label in bodies): raise TypeError(f"geostatic: bodies = {brief(bodies)} must be a list of labels of materials, as ['concrete']")
 	missing = [label for label in bodies if label not in labels]
@@ -115,7 +115,7 @@ def _stress(vertical, horizontal, axis):
 
 
 def _ofWater(solver, points, rows, axis, up, cover):
-	"""What water adds to the effective vertical pressure of the points, by the means over domains that a step takes: it lifts what is in it by the gradient of its
+	"""Effective vertical pressure that water adds at the points, by the means over domains that a step takes: it lifts the soil in it by the gradient of its
 	pressure; where it is in the pores or outside alone, its pressure acts, too."""
 	ground = points['pos'].copy()
 	top = rows.level[0] + rows.thickness[0] / 2
@@ -129,7 +129,7 @@ def _ofWater(solver, points, rows, axis, up, cover):
 	onTop = pressuresOfEach(solver, ground)
 	for water, above, top, (pressure, gradient) in zip(solver.water, ofCover, onTop, around):
 		pressure, lift = np.frombuffer(pressure), -up * np.frombuffer(gradient).reshape(-1, 3)[:, axis]
-		lifted = rows.above(lift) if rows.areAlike(lift) else pressure - top  # where it varies along a row, each column by itself
+		lifted = rows.above(lift) if rows.areAlike(lift) else pressure - top  # varies along a row: each column by itself
 		if water.where == 'pores': result -= pressure
 		else: result += above - lifted + (pressure if water.where == 'outside' else 0)
 	return result
@@ -222,7 +222,7 @@ def _overconsolidation(OCR, material, depth):
 
 
 def _sineOfFriction(material, points, rows):
-	"""Of Cam clay: that of triaxial compression. None without friction."""
+	"""Sine of the angle of friction; for Cam clay that of triaxial compression. None without friction."""
 	if hasattr(material, 'criticalStateRatio'):
 		ratio = parameter('criticalStateRatio', material, points, rows)
 		return 3 * ratio / (6 + ratio)
@@ -251,7 +251,7 @@ def _requireKnownRatio(material):
 
 
 def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):
-	"""Of Cam clay: where the yield surface Q^2 / M^2 + P (P - pc) = 0 that passes the past or the present state ends, whichever is larger."""
+	"""Preconsolidation pressure of Cam clay: the end of the yield surface Q^2 / M^2 + P (P - pc) = 0 through the past or the present state, whichever is larger."""
 
 	def through(vertical, ratio):
 		P, Q = (1 + 2 * ratio) / 3 * vertical, np.abs(1 - ratio) * vertical
@@ -268,7 +268,7 @@ class _Rows:
 	"""
 
 	def __init__(self, points, height, half, density, isBody):
-		number = np.maximum(np.rint(half / half.min()), 1).astype(int)  # of slices, by point
+		number = np.maximum(np.rint(half / half.min()), 1).astype(int)  # number of slices, by point
 		self.point = np.repeat(np.arange(len(half)), number)
 		first = np.cumsum(number) - number
 		offset = (2 * (np.arange(number.sum()) - first[self.point]) + 1) / number[self.point] - 1
@@ -276,7 +276,7 @@ class _Rows:
 		density, isBody, volume = density[self.point], isBody[self.point], points['volume'][self.point] / number[self.point]
 		self.order = np.argsort(-height, kind='stable')
 		step = 2 * half.min()
-		self.row = np.concatenate([[0], np.cumsum(-np.diff(height[self.order]) > 1e-6 * step)])  # of each point, in this order
+		self.row = np.concatenate([[0], np.cumsum(-np.diff(height[self.order]) > 1e-6 * step)])  # row of each point, in this order
 		self.isGround = ~isBody[self.order]
 		first = np.flatnonzero(np.diff(self.row, prepend=-1))
 		self.level, self.thickness = height[self.order][first], 2 * half[self.order][first]
@@ -310,7 +310,7 @@ class _Rows:
 			)
 
 	def _ofFirst(self, values, first):
-		"""Of the first point of ground in each row, or where there is none of the first point."""
+		"""Values of the first point of ground in each row, or of the first point if there is no ground."""
 		found = values[first].copy()
 		rows, at = np.unique(self.row[self.isGround], return_index=True)
 		found[rows] = values[self.isGround][at]
@@ -346,11 +346,11 @@ class _Rows:
 		)
 
 	def areAbove(self):
-		"""Of each point whether it stands out of the ground."""
+		"""True for each point that stands out of the ground."""
 		return self.toPoints(self.isAbove) > 0
 
 	def areAlike(self, values):
-		"""Whether values (N,) of the points are the same all along each row."""
+		"""True if values (N,) of the points are the same all along each row."""
 		ordered = self._ofSlices(values)
 		first = ordered[np.flatnonzero(np.diff(self.row, prepend=-1))]
 		return (np.abs(ordered - first[self.row]) <= 1e-9 * np.abs(values).max()).all()
@@ -373,5 +373,5 @@ class _Rows:
 		return values[self.point][self.order]
 
 	def _means(self, ordered):
-		"""Of each point the mean of its slices' values."""
+		"""Mean of the values of its slices for each point."""
 		return np.bincount(self.point[self.order], ordered) / np.bincount(self.point)

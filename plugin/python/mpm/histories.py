@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What happens at chosen points over time, and histories from files."""
+"""Histories of chosen points over time, and histories from files."""
 import numpy as np
 from yade import wrapper
 from yade.minieigenHP import Vector3
@@ -13,7 +13,7 @@ from .naming import didYouMean
 from .processes import byFirst
 from .spectra import frequenciesOf, transform, warnOfMotionLeft
 
-_kept = {}  # by label: what the PyRunners of this process write to
+_kept = {}  # data that the PyRunners of this process write to, by label
 
 
 class histories:
@@ -105,7 +105,7 @@ class histories:
 		return frequencies, transform(time, values, frequencies)
 
 	def amplification(self, point, base, field='velocity_x', frequencies=None, floor=1e-3):
-		"""How many times the motion of one point is that of another, over frequency.
+		"""Ratio of the motion of one point to that of another, over frequency.
 
 		:param point: place in ``h.ids`` of the point, as in ``h['velocity'][:, 0]``
 		:param base: place in ``h.ids`` of the point that it is compared with
@@ -185,7 +185,7 @@ class histories:
 		return ax
 
 	def _follow(self, field, ax, size):
-		"""By a timer of the window: what runs in the background must not draw."""
+		"""Draws by a timer of the window: a thread in the background must not draw."""
 
 		def update():
 			values = self[field]

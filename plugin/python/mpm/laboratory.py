@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a law says, by itself: one answer, and the curves of laboratory tests."""
+"""Response of a law by itself: one answer, and the curves of laboratory tests."""
 import math
 from types import SimpleNamespace
 
@@ -166,7 +166,7 @@ def _rows(tensor):
 
 
 def _named(who, function, *arguments):
-	"""What a function of the library answers, with its errors in the name of the caller."""
+	"""Answer of a function of the library, with its errors in the name of the caller."""
 	try:
 		return function(*arguments)
 	except ValueError as error:
@@ -179,7 +179,7 @@ def _assemble(values, axes):
 
 
 def _testOf(who, kind):
-	"""What of a test is free, whether its sides are free of shear stress, and the increment of F of a strain that is driven from one value to another.
+	"""Free strains of a test, whether its sides are free of shear stress, and the increment of F of a strain that is driven from one value to another.
 
 	A row of `free` is one unknown strain along the axes that it marks, by which the mean stress along them is kept. Where isotropic soil is pressed alike along x and z
 	that is one strain: by two, a corner of a yield surface would leave their difference open. `each` has one for each axis.
@@ -214,7 +214,7 @@ def firstStress(who, confiningPressure, initialStress):
 
 
 def stateUnder(who, material, stress, internals):
-	"""Of a point with this stress, which it bears without yielding."""
+	"""State of a point with this stress, which it bears without yielding."""
 	if hasattr(material, 'swellingIndex') and not stress.any():
 		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an {type(material).__name__}, which has no stiffness without pressure')
 	internals = _named(who, engine.bearing, material, _numbers(stress), internals)
@@ -242,7 +242,7 @@ def _advance(test, material, state, to, kept):
 
 
 class _NoSolution(Exception):
-	"""With the reason, and the strain that was `reached`."""
+	"""Stop of a test, with the reason, and the strain that was `reached`."""
 
 
 def _solve(test, material, state, to, kept):
@@ -277,7 +277,7 @@ def _requireNoShear(test, trial, allowed):
 
 
 def _roundOff(trial):
-	"""Of the stress [Pa]: strains are logarithms of numbers near one, whose round-off the stiffness multiplies, of nearly incompressible soil by its bulk modulus."""
+	"""Round-off of the stress [Pa]: strains are logarithms of numbers near one, whose round-off the stiffness multiplies, of nearly incompressible soil by its bulk modulus."""
 	return 8 * np.finfo(float).eps * np.abs(trial.trial.answer['tangent']).sum(axis=1).max()
 
 
@@ -327,7 +327,7 @@ def _tensorTrial(material, state, increment, to, duration):
 
 
 def _rate(state, velocityGradient):
-	"""Of the Kirchhoff stress: the tangent in principal axes, and the rotation of the axes, which the secant shear moduli stand for."""
+	"""Rate of the Kirchhoff stress: the tangent in principal axes, and the rotation of the axes, which the secant shear moduli stand for."""
 	if state.hasTensors: return (state.trial.rates @ velocityGradient.ravel()).reshape(3, 3)
 	strain, axes, answer = state.trial.strain, state.trial.axes, state.trial.answer
 	l, squares = axes.T @ velocityGradient @ axes, np.exp(2 * strain)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether a law's tangent is that of its stress."""
+"""Check of a law's tangent against its stress."""
 import numpy as np
 
 from .laboratory import firstStress, internalsOf, materialFor, respond, stateUnder
@@ -72,7 +72,7 @@ def _mandel(tensor):
 
 
 def _mandelTangent(answer):
-	"""Of a law that answers in principal axes: with the turning of the axes, by the secant shear moduli."""
+	"""Tangent of a law that answers in principal axes: with the rotation of the axes, by the secant shear moduli."""
 	if 'axes' not in answer: return np.array(answer['tangent'])
 	axes = answer['axes']
 	along = lambda i, j: _mandel((np.outer(axes[:, i], axes[:, j]) + np.outer(axes[:, j], axes[:, i])) / 2)

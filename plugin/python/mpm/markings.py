@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What pictures of the points may have on top: arrows, lines of equal value, and where a slice cuts the body."""
+"""Marks on top of pictures of the points: arrows, contour lines, and the position of a slice in the body."""
 import numpy as np
 
 from .data import table
@@ -37,7 +37,7 @@ def labelOf(name):
 
 
 def levelsOf(contours):
-	"""What matplotlib takes: a number of levels or the levels; None: none."""
+	"""Levels as matplotlib takes them: their number or the levels; None: none."""
 	if contours is None or contours is False: return None
 	if isNumber(contours) and contours == int(contours) and contours >= 1: return int(contours)
 	try:

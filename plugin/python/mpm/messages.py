@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the functions say about the values that they were given."""
+"""Messages of the functions about the values that they were given."""
 import math
 import os
 
@@ -14,7 +14,7 @@ def brief(value):
 
 
 def isNumber(value):
-	"""Whether it is a number of Python or NumPy; a bool is none."""
+	"""True for a number of Python or NumPy; a bool is none."""
 	return isinstance(value, (int, float, np.floating, np.integer)) and not isinstance(value, bool)
 
 

@@ -10,7 +10,7 @@ from .messages import brief, isNumber, pathOf
 from .plotting import plot
 from .processes import isFirst
 
-_running = {}  # by label
+_running = {}  # movies by label
 _writers = {'.gif': 'pillow', '.mp4': 'ffmpeg', '.mkv': 'ffmpeg', '.webm': 'ffmpeg'}
 
 

@@ -23,7 +23,7 @@ def unitNamed(text):
 
 
 def series(name, lines, quantity, channel):
-	"""What is meant of a file of one of these forms: step [s], values, unit, title, and whether its baseline is corrected; None for a file of another form."""
+	"""Contents of a file of one of these forms: step [s], values, unit, title, and whether its baseline is corrected; None for a file of another form."""
 	reader = next((reader for isMeant, reader in _forms if lines and isMeant(lines)), None)
 	if reader is None: return None
 	found = reader(name, lines)
@@ -113,7 +113,7 @@ def _ofKnet(name, lines):
 	if not found: raise ValueError(f"record: {name} has the Scale Factor {brief(scale)}; expected is one as '7845(gal)/8223790'")
 	frequency = _number(name, 'Sampling Freq(Hz)', re.sub(r'\s*Hz$', '', frequency))
 	values = _plainNumbers(name, lines, count + 1, round(frequency * _number(name, 'Duration Time(s)', duration)))
-	sensors = {str(3 * k + i + 1): f'{way} {place}' for k, place in enumerate(('in the borehole', 'at the surface')) for i, way in enumerate(('N-S', 'E-W', 'U-D'))}  # of KiK-net
+	sensors = {str(3 * k + i + 1): f'{way} {place}' for k, place in enumerate(('in the borehole', 'at the surface')) for i, way in enumerate(('N-S', 'E-W', 'U-D'))}  # sensors of KiK-net
 	direction = header.get('Dir.', '')
 	title = ', '.join(part for part in (header.get('Origin Time'), header.get('Station Code'), sensors.get(direction, direction)) if part)
 	return [_one(name, 'acceleration', 'gal', 1 / frequency if frequency else math.inf, np.array(values) * float(found[1]) / float(found[2]), title, False)]

@@ -72,7 +72,7 @@ def _write(fileName, facts):
 
 
 def formula(field, size):
-	"""What ParaView's calculator makes of a field's name, in a unit of that size: ('stress_xy', 1e3) -> '"stress_1" / 1000'."""
+	"""Expression of ParaView's calculator for a field's name, in a unit of that size: ('stress_xy', 1e3) -> '"stress_1" / 1000'."""
 	base, _, component = field.partition('_')
 	if field == 'displacement': name = 'mag(displacement)'
 	elif not component: name = base

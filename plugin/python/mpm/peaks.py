@@ -9,7 +9,7 @@ from .fields import components
 from .messages import brief, isNumber
 from .naming import didYouMean
 
-_kept = {}  # by label: what the PyRunners of this process write to
+_kept = {}  # data that the PyRunners of this process write to, by label
 
 
 class peaks:
@@ -58,7 +58,7 @@ class peaks:
 			self._values[name][isLarger], self.time[name][isLarger] = now[isLarger], self.solver.loadTime
 
 	def _renew(self, ids):
-		"""Of points that are new nothing is known yet, and of those that are gone nothing is kept."""
+		"""Values of points that are new are not known yet, and those of points that are gone are not kept."""
 		there = np.searchsorted(self.ids, ids)
 		isKnown = (there < len(self.ids)) & (np.append(self.ids, -1)[there] == ids)
 		for values in self._values, self.time:
@@ -69,7 +69,7 @@ class peaks:
 
 	@staticmethod
 	def _sizes(name, columns):
-		"""Of a vector the lengths, of a scalar the magnitudes (points,)."""
+		"""Lengths of a vector, magnitudes of a scalar (points,)."""
 		if name in columns and columns[name].ndim == 2: return np.linalg.norm(columns[name], axis=1)
 		base = name.partition('_')[0]
 		scalars = components(base, columns[base]) if base in columns else {}

@@ -79,7 +79,7 @@ def _erase(bodies):
 
 
 def _insert(bodies):
-	"""Of other pieces, which have materials of their own with the same values."""
+	"""Appends bodies of other pieces, which have materials of their own with the same values."""
 	scene = wrapper.Omega()
 	for body in bodies:
 		body.material = scene.materials[body.material.id]

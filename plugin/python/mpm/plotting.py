@@ -154,7 +154,7 @@ def _across(gravity, size):
 def _newAxes(fileName, outlines, withTrace):
 	width, height = np.ptp(outlines.reshape(-1, 2), axis=0)
 	scale = min(8 / width, 7 / height)
-	size = max(2.5, scale * width) + (4.2 if withTrace else 1.6), max(1.5, scale * height) + 0.9  # with room for labels, colour bar and the small picture
+	size = max(2.5, scale * width) + (4.2 if withTrace else 1.6), max(1.5, scale * height) + 0.9  # room for labels, colour bar and the small picture included
 	if fileName is None:
 		import matplotlib.pyplot as pyplot
 		return pyplot.figure(figsize=size).add_subplot()
@@ -194,7 +194,7 @@ def _drawFaces(ax, section, solver):
 
 
 def _drawSurfaces(ax, section, solver, kind, colour):
-	"""Of loads or walls, with the first field of their picture where that is a vector, as the forces that act on the body."""
+	"""Draws loads or walls, with the first field of their picture, if that is a vector, as the forces that act on the body."""
 	from matplotlib.collections import LineCollection
 	data = engine.gridCells(kind, solver)
 	count = data['count']
@@ -214,7 +214,7 @@ def _drawSurfaces(ax, section, solver, kind, colour):
 
 
 def _drawRigid(ax, section, solver):
-	"""As far as they are beside the body."""
+	"""Draws them so far as they are beside the body."""
 	from matplotlib.collections import LineCollection
 	normal, at = (2, 0) if section.normal is None else (section.normal, section.at)
 	low, high = ax.dataLim.get_points()
@@ -226,7 +226,7 @@ def _drawRigid(ax, section, solver):
 
 
 def _drawPressure(ax, section, solver):
-	"""What bodies press and rub with, per area: lines from their faces, against the force on the soil."""
+	"""Draws pressure and friction of bodies, per area: lines from their faces, against the force on the soil."""
 	from matplotlib.collections import LineCollection
 	places, force, ends = contactFaces(solver)
 	touching = force.any(axis=1)
@@ -263,7 +263,7 @@ def _drawMatter(ax, matter, values, field, range, colormap):
 
 
 def momentOf(solver):
-	"""What a picture is titled with: the time, the load factor, or the stage that is or was the last one."""
+	"""Title of a picture: the time, the load factor, or the stage that is or was the last one."""
 	if isinstance(solver, wrapper.MpmDynamicEngine): return f'time {solver.loadTime:.4g} s'
 	stage = stages.now(solver)
 	if stage: return stage
@@ -285,7 +285,7 @@ def _finish(ax, section, title, isOwn):
 
 
 def _spread(ax, rows, entries):
-	"""As many ticks as fit into narrow axes; returns the rows of the legend, one for each entry there."""
+	"""Sets the number of ticks that fits into narrow axes; returns the rows of the legend, one for each entry there."""
 	ax.apply_aspect()
 	box, dpi = ax.get_window_extent(), ax.figure.dpi
 	for axis, length, each in (ax.xaxis, box.width, 0.6), (ax.yaxis, box.height, 0.3):

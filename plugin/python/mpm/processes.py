@@ -14,17 +14,17 @@ _grace = 10  # [s] that processes which have failed wait for the others to do so
 _endOfScript = 27183  # tag of a message, as in the library
 _hasFailed = _hasEnded = False
 
-if 'OMPI_COMM_WORLD_RANK' in os.environ: from mpi4py import MPI  # which begins MPI before PETSc can, and so ends it, however the script ends
+if 'OMPI_COMM_WORLD_RANK' in os.environ: from mpi4py import MPI  # begins MPI before PETSc can, and so ends it, however the script ends
 if count > 1:
 	_speak = sys.stderr.write
 	from yade import mpy, plot, wrapper
-	sys.stderr.write = _speak  # which yade.mpy has turned to stdout, of which the first process alone may be shown
+	sys.stderr.write = _speak  # yade.mpy has turned it to stdout, and only that of the first process may be shown
 	sys.stderr.reconfigure(line_buffering=True)  # for what is said before all are ended
 	_world = MPI.COMM_WORLD.Dup()  # steps in the background have one of their own
 
 
 def gathered(mine):
-	"""What each process has, in all of them; a list of one where there is one."""
+	"""Values of each process, in all of them; a list of one where there is one."""
 	return _world.allgather(mine) if count > 1 else [mine]
 
 
@@ -59,7 +59,7 @@ def withFirst(write):
 
 
 def together(act):
-	"""What act() returns in each of them; an error is one of all."""
+	"""Result of act() in each of them; an error is one of all."""
 	error = result = None
 	try:
 		result = act()
@@ -78,7 +78,7 @@ def _refuseDecomposition(*arguments, **options):
 
 
 def _exit(status=None):
-	"""As sys.exit, by which YADE ends after an error of the script, and which leaves the others waiting."""
+	"""Does the same as sys.exit, by which YADE ends after an error of the script, and which leaves the others waiting."""
 	global _hasFailed
 	_hasFailed = status not in (None, 0, False)
 	raise SystemExit(status)
@@ -106,7 +106,7 @@ def _endOthers():
 
 
 def _saying(end):
-	"""What YADE calls after the script."""
+	"""Function that YADE calls after the script."""
 
 	@functools.wraps(end)
 	def wrapped():
@@ -123,7 +123,7 @@ def _saveByFirst(omega, *arguments, **options):
 	if isFirst: saveScene(omega, *arguments, **options)
 
 
-saveScene = wrapper.Omega.save if count > 1 else None  # of this process
+saveScene = wrapper.Omega.save if count > 1 else None  # method of this process
 
 if count > 1:
 	mpy.mpirun = _refuseDecomposition

@@ -10,7 +10,7 @@ from .messages import brief, isNumber
 from .naming import didYouMean
 
 stresses = ['stress_xx', 'stress_yy', 'stress_zz', 'stress_xy']
-# what a test measures: neither what its kind keeps or prescribes, nor what is zero in it
+# measured quantities of a test: neither those that its kind keeps or prescribes, nor those that are zero in it
 measured = {
         'triaxial': ['q', 'p', 'volumetricStrain', 'stress_yy'],
         'biaxial': ['q', 'p', 'volumetricStrain', 'stress_yy', 'stress_zz'],

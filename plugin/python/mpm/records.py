@@ -9,7 +9,7 @@ from . import shaking
 from .accelerograms import read, standardGravity, unitsOf
 from .messages import brief, isNumber
 
-_shortestPeriod, _longestPeriod = 0.05, 4.  # of the response spectrum in the picture [s]
+_shortestPeriod, _longestPeriod = 0.05, 4.  # periods of the response spectrum in the picture [s]
 
 
 class record:
@@ -84,7 +84,7 @@ class record:
 		return self._moving(1., direction, start)
 
 	def incoming(self, direction=(1, 0, 0), start=None):
-		"""As motion(), of the wave that comes up through rock: half of what was recorded on a free outcrop of it. For MpmAbsorbingBoundary.motion."""
+		"""Same as motion(), for the wave that comes up through rock: half of what was recorded on a free outcrop of it. For MpmAbsorbingBoundary.motion."""
 		return self._moving(0.5, direction, start)
 
 	def _moving(self, part, direction, start):
@@ -93,7 +93,7 @@ class record:
 		return wrapper.MpmBaseMotion(history=list(zip((self.time + shift).tolist(), (part * self.velocity).tolist())), direction=direction)
 
 	def responseSpectrum(self, periods=None, damping=0.05):
-		"""Of oscillators on this ground, exact for accelerations that are linear between samples (N. C. Nigam and P. C. Jennings 1969).
+		"""Response spectrum of oscillators on this ground, exact for accelerations that are linear between samples (N. C. Nigam and P. C. Jennings 1969).
 
 		:param periods: [s] > 0, an array; None: 100 from 0.05 to 4 s
 		:param damping: ratio [-], 0 to below 1
@@ -183,7 +183,7 @@ def _requireOptions(quantity, baseline, scale):
 
 
 def _corners(filter, step):
-	"""Of the filter [Hz]; (0, inf) without one."""
+	"""Limits of the filter [Hz]; (0, inf) without one."""
 	if filter is None: return 0., np.inf
 	half = 0.5 / step
 	try:

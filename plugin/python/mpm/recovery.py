@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-_leastVariance = 0.01  # of the places of a node's points [cells^2], for a slope in that direction: below, they are one row
+_leastVariance = 0.01  # least variance of the positions of a node's points [cells^2] for a gradient in that direction: below, they are one row
 
 
 def smoothed(places, group, weight, values):

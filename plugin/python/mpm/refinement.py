@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What values from three grids say of the error; needs nothing of YADE."""
+"""Error of a value from its results on three grids; needs nothing of YADE."""
 import math
 
 

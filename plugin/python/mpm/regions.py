@@ -73,7 +73,7 @@ def volumeInBoxes(predicate, grid, n, filled, admitted):
 
 
 def _estimatedLack(predicate, grid, n, admitted):
-	"""What the boxes lack of the region, in boxes; negative if they have more."""
+	"""Volume of the region that the boxes lack, in boxes; negative if they have more."""
 	half = grid.cellSize / (2 * n)
 	low, high = bounds(predicate, grid.dim)
 	low, high = low - half, high + half  # so far do boxes reach beyond the region
@@ -87,7 +87,7 @@ def _estimatedLack(predicate, grid, n, admitted):
 		unequal += int((inRegion != inBoxes).sum())
 		lack, scatter = (number * box / (first + block) for number in (difference, math.sqrt(unequal + 1)))
 		if abs(abs(lack) - admitted) > 3 * scatter: return lack
-	return math.copysign(max(0, abs(lack) - scatter), lack)  # what is beyond doubt
+	return math.copysign(max(0, abs(lack) - scatter), lack)  # part beyond doubt
 
 
 def _spread(first, number, low, high, grid):

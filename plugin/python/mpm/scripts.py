@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What examples there are: path, what it is, words. Written by scripts/lib/examplelist.py, from the scripts."""
+"""List of examples: path, what it is, words. Written by scripts/lib/examplelist.py, from the scripts."""
 scripts = [
         ('examples/tasks/anchored_wall.py', 'A sheet pile wall with one anchor, 6 m dug out in stages, 3 m left below',
          "anchor anchored and below coulomb's dug earth free hand has left one out pile png pressures sheet stages support the wall with MpmBeam MpmBoundary MpmGrid MpmImplicitEngine MpmMohrCoulombMat MpmReinforcement mpm.diagram mpm.fill mpm.geostatic mpm.plot mpm.polygon mpm.stages.excavate"),

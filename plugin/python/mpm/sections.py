@@ -2,7 +2,7 @@
 """Boxes and triangles where a plane cuts them."""
 import numpy as np
 
-signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
+signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # signs of the corners of a box
 boxEdges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(signs[i] - signs[j]).sum() == 2])
 triangleSides = np.array([(0, 1), (1, 2), (2, 0)])
 

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is made of accelerations at equal steps: baseline, filter, integrals, response spectrum, Arias intensity. SI units, NumPy alone."""
+"""Processing of accelerations at equal steps: baseline, filter, integrals, response spectrum, Arias intensity. SI units, NumPy alone."""
 import numpy as np
 
-orderBelow, orderAbove = 2, 4  # of Butterworth's filters, whose gain is applied forwards and backwards
-_quietVelocity, _quietDisplacement = 1e-4, 5e-3  # of the largest ones: what is cut off before and after
+orderBelow, orderAbove = 2, 4  # orders of Butterworth's filters, whose gain is applied forwards and backwards
+_quietVelocity, _quietDisplacement = 1e-4, 5e-3  # limits as parts of the largest ones: beginning and end below them are cut off
 degrees = {'constant': 0, 'linear': 1, 'quadratic': 2}
 
 
 def integral(values, step):
-	"""Of values that are linear between samples, from 0 on."""
+	"""Integral of values that are linear between samples, from 0 on."""
 	return np.concatenate([[0.], np.cumsum((values[1:] + values[:-1]) * step / 2)])
 
 
@@ -16,12 +16,12 @@ def withoutDrift(acceleration, step, degree):
 	"""Less a polynomial of the degree 0, 1 or 2, such that the velocity ends with 0 and has the least squares of all that do."""
 	velocity = integral(acceleration, step)
 	t = np.linspace(0, 1, len(velocity))
-	powers = [t**(k + 1) for k in range(degree + 1)]  # of the velocity, which begins with 0
+	powers = [t**(k + 1) for k in range(degree + 1)]  # terms of the velocity, which begins with 0
 	fitted = velocity[-1] * powers[0]
-	bubbles = np.array([power - powers[0] for power in powers[1:]]).T  # that are 0 at both ends
+	bubbles = np.array([power - powers[0] for power in powers[1:]]).T  # functions that are 0 at both ends
 	if degree: fitted = fitted + bubbles @ np.linalg.lstsq(bubbles, velocity - fitted, rcond=None)[0]
 	left = acceleration - np.gradient(fitted, step)
-	return left - integral(left, step)[-1] / (step * (len(left) - 1))  # what differences leave of the end
+	return left - integral(left, step)[-1] / (step * (len(left) - 1))  # differences leave this much at the end
 
 
 def filtered(acceleration, step, low, high):
@@ -62,7 +62,7 @@ def responseSpectrum(acceleration, step, periods, damping):
 
 
 def _exactStep(w, xi, h):
-	"""Of u'' + 2 xi w u' + w^2 u = -a over a step h: (u, v) afterwards by (u, v) before, and by a before and after; by closed forms of a(t) = 1 and a(t) = t / h."""
+	"""Solution of u'' + 2 xi w u' + w^2 u = -a over a step h: (u, v) afterwards by (u, v) before, and by a before and after; by closed forms of a(t) = 1 and a(t) = t / h."""
 	wd = w * np.sqrt(1 - xi**2)
 	decay, s, c = np.exp(-xi * w * h), np.sin(wd * h), np.cos(wd * h)
 	free = decay * (c + xi * w / wd * s), decay * s / wd, -decay * w**2 / wd * s, decay * (c - xi * w / wd * s)

@@ -8,7 +8,7 @@ from yade import wrapper
 from .data import parameter
 
 _angles = np.radians(np.arange(5, 86, 2.5))
-_leastDepth = 1.5  # of a slip [point sizes]: the surface of points is one of steps
+_leastDepth = 1.5  # depth of a slip [point sizes]: the surface of points is one of steps
 
 
 def leastPlaneSlip(solver, points, materials, number):
@@ -101,5 +101,5 @@ def _factorOf(side, solver, columns, foot, start, angle, cohesion, friction):
 
 
 def _holds(box, low, high, bottom, top):
-	"""Whether a box of held nodes reaches into a block."""
+	"""True if a box of constrained nodes reaches into a block."""
 	return box.min[0] < high and box.max[0] > low and box.min[1] < top and box.max[1] > bottom

@@ -80,7 +80,7 @@ def _ofGts(fileName):
 	with open(fileName) as file:
 		try:
 			surface = gts.read(file)  # its faces go with it
-		except Exception as error:  # of whatever kind gts has
+		except Exception as error:  # any kind that gts has
 			raise ValueError(f'solid: {fileName!r} cannot be read as a GTS file: {error}') from None
 	return np.array([[v.coords() for v in face.vertices()] for face in surface.faces()]).reshape(-1, 3, 3)
 
@@ -146,7 +146,7 @@ def _shells(triangles):
 
 
 def _isAround(triangles, point):
-	"""Whether a closed surface is around a point, whichever way its triangles (N, 3, 3) face: the solid angles that they fill add up to a full one (van Oosterom and Strackee 1983)."""
+	"""True if a closed surface is around a point, whichever way its triangles (N, 3, 3) face: the solid angles that they fill add up to a full one (van Oosterom and Strackee 1983)."""
 	a, b, c = (triangles - point).transpose(1, 0, 2)
 	lengths = [np.linalg.norm(v, axis=1) for v in (a, b, c)]
 	dot = lambda v, w: (v * w).sum(axis=1)

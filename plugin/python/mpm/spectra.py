@@ -5,11 +5,11 @@ import numpy as np
 from .library import engine
 from .messages import brief
 
-_bytes = 2**26  # of the exponentials that are held at once
+_bytes = 2**26  # bytes of the exponentials that are in memory at once
 
 
 def frequenciesOf(who, frequencies, time):
-	"""What was given [Hz], or all that these times can tell of: from one over their span to half of one over their longest step."""
+	"""Frequencies that were given [Hz], or all that these times can tell of: from one over their span to half of one over their longest step."""
 	if len(time) < 3: raise ValueError(f'{who}: {len(time)} times are too few for a spectrum; run the scene first')
 	if frequencies is None: return np.arange(1, int(np.diff(time).size / 2 * np.diff(time).mean() / np.diff(time).max() + 1e-9) + 1) / (time[-1] - time[0])
 	try:
@@ -33,7 +33,7 @@ def transform(time, values, frequencies):
 
 
 def warnOfMotionLeft(who, time, values):
-	"""By a record that is cut off frequencies run into each other."""
+	"""Warns that frequencies run into each other in a record that is cut off."""
 	late = time > time[0] + 0.95 * (time[-1] - time[0])
 	largest = np.abs(values).max()
 	left = np.abs(values[late]).max(initial=0)

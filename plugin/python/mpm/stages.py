@@ -25,7 +25,7 @@ from .naming import materialOf
 from .regions import inside
 
 __all__ = ['place', 'excavate', 'replace', 'release', 'resetDisplacements']
-_softness = 0.05  # of what is dug out: the part of its stiffness that is left
+_softness = 0.05  # part of its stiffness that is left to soil that is dug out
 
 
 def place(bodies, steps=1, solver=None):
@@ -165,8 +165,8 @@ def _renew(ids, material, stress):
 
 
 def _requireNoLoad(solver, points, inRegion):
-	"""What lies on ground that goes away would act in the air."""
-	reach = points['halfSize'][:, :solver.grid.dim] + solver.grid.cellSize * 3 / 8  # of the domains, as far as a step admits
+	"""Refuses loads on ground that goes away: they would act in the air."""
+	reach = points['halfSize'][:, :solver.grid.dim] + solver.grid.cellSize * 3 / 8  # half sizes of the domains, as far as a step admits
 	middle = points['pos'][:, :solver.grid.dim]
 	for i, load in enumerate(solver.loads):
 		for place in np.array(load._places()).reshape(-1, 3)[:, :solver.grid.dim]:
@@ -226,7 +226,7 @@ def _weigh(scene, twins, share):
 
 
 def now(solver):
-	"""What the solver's last stage is and how far it has come, for titles; empty if there has been none."""
+	"""Name and progress of the solver's last stage, for titles; empty if there has been none."""
 	found = [engine for engine in wrapper.Omega().engines if engine.label.startswith('stage_')]
 	for engine in reversed(found):
 		kind, label, first, steps, _ = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
@@ -238,7 +238,7 @@ def now(solver):
 
 
 def _isBefore(runner, solver):
-	"""Whether it is this solver's: the next one behind it."""
+	"""True if the runner is this solver's: the next one behind it."""
 	engines = list(wrapper.Omega().engines)
 	return next((engine for engine in engines[engines.index(runner):] if isinstance(engine, wrapper.MpmImplicitEngine)), None) == solver
 
@@ -339,7 +339,7 @@ def _idsOf(label):
 
 
 def _here(ids):
-	"""Of these bodies those that this process has."""
+	"""Bodies of these ids that this process has."""
 	bodies = wrapper.Omega().bodies
 	return [body for body in (bodies[i] for i in ids) if body]
 

@@ -32,7 +32,7 @@ def surface(region, min=(-math.inf, ) * 3, max=(math.inf, ) * 3, dim=2, spacing=
 	pieces = _outline(region, spacing) if dim == 2 else _triangles(region)
 	extent = np.ptp(np.concatenate(pieces), axis=0).max()
 	tolerance = 1e-9 * extent
-	sliver = 4 * tolerance * extent**(dim - 2)  # of what stands on a face of the box
+	sliver = 4 * tolerance * extent**(dim - 2)  # smallest area of a piece on a face of the box
 	kept = [part for piece in pieces for part in _clipped(piece, low - tolerance, high + tolerance) if _size(part) > sliver]
 	if not kept:
 		corners = np.concatenate(pieces)
@@ -149,7 +149,7 @@ def _isEar(a, b, c, others):
 
 
 def _clipped(piece, low, high):
-	"""What of a segment or triangle is in a box: pieces of its kind (Sutherland and Hodgman 1974)."""
+	"""Part of a segment or triangle in a box: pieces of its kind (Sutherland and Hodgman 1974)."""
 	corners = list(piece)
 	for axis in range(len(low)):
 		for sign, limit in ((1, high[axis]), (-1, low[axis])):

@@ -55,12 +55,12 @@ def frame(fields=None):
 
 
 def unitOf(name):
-	"""Of a column of points or one of its components."""
+	"""Unit of a column of points or one of its components."""
 	return table[name.partition('_')[0]]['unit']
 
 
 def _dimension():
-	"""Of the engines of the scene; 3 where there are several or none."""
+	"""Dimension of the engines of the scene; 3 where there are several or none."""
 	found = {engine.grid.dim for engine in wrapper.Omega().engines if isinstance(engine, wrapper.MpmImplicitEngine)}
 	return 2 if found == {2} else 3
 

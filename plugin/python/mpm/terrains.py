@@ -165,7 +165,7 @@ def _part(who, grids, low, high):
 	return first, last
 
 
-# Where ground cannot be that steep in metres, half of it; nor a model of it as thick, over its width.
+# Limits of the median slope, and of the thickness over the width, of a terrain in metres: beyond, coordinates are degrees.
 _steepest, _thickest = 5, 50
 
 

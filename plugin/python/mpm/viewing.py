@@ -21,7 +21,7 @@ from .plotting import momentOf
 from .processes import isFirst
 from .rigid import cornersOf
 
-_running = {}  # by label
+_running = {}  # views by label
 _folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'page')
 
 
@@ -100,7 +100,7 @@ class view:
 			file.write(page)
 
 	def _data(self):
-		"""What the page is given; coordinates and values in 16 bits of their range."""
+		"""Data for the page; coordinates and values in 16 bits of their range."""
 		dim, states = self.solver.grid.dim, self._states
 		low, high = (ends(*(getattr(state, name) for state in states)) for ends, name in ((_lowest, 'low'), (_highest, 'high')))
 		reach = max(state.reach for state in states)
@@ -131,7 +131,7 @@ class view:
 
 
 class _State:
-	"""What is kept of a moment of the run."""
+	"""Data of a moment of the run."""
 
 	def __init__(self, points, names, solver):
 		dim = solver.grid.dim
@@ -205,7 +205,7 @@ def _bodies(dim, low, high):
 
 
 def _wall(body, low, high):
-	"""As a thin box beside the soil."""
+	"""Draws a wall as a thin box beside the soil."""
 	axis, size = body.shape.axis, np.linalg.norm(high - low)
 	half = (high - low) / 2 + 0.05 * size
 	half[axis] = 0.002 * size

@@ -6,7 +6,7 @@ from yade.minieigenHP import Vector3
 
 
 def pressuresOfEach(solver, positions):
-	"""Of each water the pressures (N,) [Pa] at positions (N, 3)."""
+	"""Pressures of each water (N,) [Pa] at positions (N, 3)."""
 	return [_factor(solver, water) * _pressure(solver, water, positions) for water in solver.water]
 
 
