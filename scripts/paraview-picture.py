@@ -47,7 +47,7 @@ def opened(prefix, kind):
 
 
 def formula(name):
-	"""What ParaView's calculator makes of a field's name: 'stress_xy' -> '"stress_1" / 1000'."""
+	"""Expression of ParaView's calculator for a field's name: 'stress_xy' -> '"stress_1" / 1000'."""
 	field, _, component = name.partition('_')
 	if field not in units: sys.exit(f'paraview-picture.py: there is no field {field}; there are {", ".join(units)}')
 	if field == 'displacement' and not component: return 'mag(displacement)'
@@ -114,7 +114,7 @@ def showGrid(prefix, view, lift):
 
 
 def showSpheres(file, view, lift):
-	"""As translucent discs or spheres, so that what is behind them can be compared with them."""
+	"""Draws grains as translucent discs or spheres, so that what is behind them can be compared with them."""
 	grains = PVDReader(registrationName='spheres', FileName=os.path.abspath(file))
 	drawn = Glyph(registrationName='grains', Input=grains, GlyphType='Sphere', ScaleArray=['POINTS', 'radii'], ScaleFactor=2, GlyphMode='All Points')
 	drawn.GlyphType.ThetaResolution = drawn.GlyphType.PhiResolution = 24

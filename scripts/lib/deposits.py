@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How far matter has run out, for studies of columns that are let go."""
+"""Run-out of matter, for studies of columns that are let go."""
 import numpy as np
 
 
 def front(x, area, side, face, least=0.05):
-	"""Where the deposit ends [m]: where its depth, a mean with weights that fall to none a tenth of the shorter side away, falls below a part *least* of that side. Both are as large
+	"""End of the deposit [m]: where its depth, a mean with weights that fall to none a tenth of the shorter side away, falls below a part *least* of that side. Both are as large
 	whatever the size of the cells, or grains, is; what is thinner than a twentieth is a sheet of single points that run ahead.
 
 	:param x: places of the matter (N,) [m]

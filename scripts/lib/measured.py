@@ -19,7 +19,7 @@ def measure(script, results, *names):
 	with open(script) as file:
 		program = compile(file.read(), script, 'exec')
 	wall, cpu, memory = time.time(), time.process_time(), peakMemory()
-	exec(program, globals()) # where commands of PyRunner look for the script's variables
+	exec(program, globals()) # commands of PyRunner look for the script's variables there
 	measured = dict(wall=time.time() - wall, cpu=time.process_time() - cpu, memory=peakMemory() - memory)
 	measured['solves'] = sum(globals().get('solves', []))
 	with open(results, 'w') as file:

@@ -6,5 +6,5 @@ makingRoom = dict(OMPI_MCA_mpi_yield_when_idle='1')
 
 
 def byMpi(processes):
-	"""What stands before a command of which there are to be so many; nothing for one."""
+	"""Words before a command that is to run in so many processes; nothing for one."""
 	return ['mpirun', '--allow-run-as-root', '--oversubscribe', '--bind-to', 'none', '-n', str(processes)] if processes > 1 else []

@@ -26,7 +26,7 @@ def table(heads, rows):
 
 
 def texts(path):
-	"""What a file says, as a list of one text; empty if there is no such file."""
+	"""Text of a file, as a list of one text; empty if there is no such file."""
 	if not os.path.exists(path): return []
 	with open(path) as file:
 		return [file.read()]

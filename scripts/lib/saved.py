@@ -72,7 +72,7 @@ def load(path):
 		return requireRefusal(path, 'unsupported version', 'boost reads no archive of a later version')
 	if expected.pop('MPI') != ('MPI' in config.features):
 		if path.endswith('.xml.gz'): requireRefusal(path, 'input stream error', 'YADE was built with MPI here or there only')
-		return # of a binary file YADE would read whatever stands there
+		return # YADE would read a binary file, whatever its contents
 	O.load(path)
 	assert O.iter == steps // 2, O.iter
 	for quantity, values in end().items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the plugin is compared with: the runs that say it, the tables that are kept of them, and the page of all of them. For scripts/validate; needs nothing of YADE."""
+"""Comparisons of the plugin: the runs that make them, the tables that are kept of them, and the page of all of them. For scripts/validate; needs nothing of YADE."""
 import csv
 import math
 import os
@@ -12,7 +12,7 @@ root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 examples = os.path.join(root, 'examples')
 columns = ['command', 'quantity', 'ours', 'theirs', 'unit', 'source']
 
-# Of each folder of examples, the runs whose comparisons are kept in its compared.csv.
+# Runs, by folder of examples, whose comparisons are kept in its compared.csv.
 runs = {
         'column': ['column.py', 'column.py --cells 64'],
         'cantilever': ['cantilever.py --cells 8'],
@@ -109,7 +109,7 @@ def ofSplitting():
 
 
 def everything(of=examples):
-	"""By folder its rows."""
+	"""Rows by folder."""
 	found = {folder: kept(folder, of) for folder in runs}
 	return found | dict(paper=list(ofPaper()), splitting=list(ofSplitting()))
 
@@ -120,7 +120,7 @@ def difference(row):
 
 
 def closedForms():
-	"""What the tests are held against: rows of test, against."""
+	"""Sources of the tests: rows of test, against."""
 	with open(os.path.join(root, 'tests', 'data', 'closed_forms.csv'), newline='') as file:
 		return list(csv.DictReader(file))
 

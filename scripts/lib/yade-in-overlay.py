@@ -10,7 +10,7 @@ import sys
 
 _overlay = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 os.environ['YADE_PREFIX'] = _overlay
-os.environ.setdefault('GOMP_SPINCOUNT', '10000')  # as in scripts/run
+os.environ.setdefault('GOMP_SPINCOUNT', '10000')  # same value as in scripts/run
 
 
 class _OverlayFinder:

@@ -23,7 +23,7 @@ class Outline:
 		self.start = np.array(O.bodies[self.ids[0]].state.pos)[:2]
 
 	def _facet(self, a, b):
-		"""With the line as the edge that lies in the plane."""
+		"""Facet with the line as the edge that lies in the plane."""
 		deep = 2 * np.linalg.norm(b - a)
 		third = (*((a + b) / 2), deep)
 		return utils.facet([(*a, 0.), (*b, 0.), third], material='rigid', fixed=True)
@@ -42,7 +42,7 @@ class Outline:
 		return np.array(O.bodies[self.ids[0]].state.pos)[:2] - self.start
 
 	def depths(self, places):
-		"""How deep places (N, 3) are inside, from the faces; 0 outside."""
+		"""Depth of positions (N, 3) inside, from the faces; 0 outside."""
 		line = self.corners + self.way
 		x = places[:, :2]
 		inside, least = np.zeros(len(x), bool), np.full(len(x), np.inf)
@@ -75,7 +75,7 @@ class QuarterCone:
 		return Outline.force(self, contact)
 
 	def depths(self, places):
-		"""As of an Outline, from the round faces."""
+		"""Depth as that of an Outline, from the round faces."""
 		x = places - (0, self.way[1], 0)
 		across = np.hypot(x[:, 0], x[:, 2])
 		fromCone = (x[:, 1] * self.radius / self.tip - across) * np.cos(np.pi / 6)
@@ -106,7 +106,7 @@ class One:
 		return np.array(self.state.pos)[:2] - self.start
 
 	def depths(self, places):
-		"""As of an Outline. In the plane a Box is without ends along z."""
+		"""Depth as that of an Outline. In the plane a Box is without ends along z."""
 		x = places - np.array(self.state.pos)
 		if type(self.shape).__name__ == 'Sphere': return np.maximum(0, self.shape.radius - np.linalg.norm(x, axis=1))
 		own = x @ np.array(self.state.ori.toRotationMatrix())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What contact costs: a block under a plate, against the block under its weight alone; a ball with places an eighth of a cell apart, against one with a quarter; and a block in two bodies of points, against one."""
+"""Cost of contact: a block under a plate, against the block under its weight alone; a ball with contact points an eighth of a cell apart, against one with a quarter; and a block in two bodies of points, against one."""
 import time
 from math import atan, inf
 
@@ -45,7 +45,7 @@ def share(dim=2, wide=80, deep=20, steps=6, friction=0., seconds=200):
 
 
 def search(sizes=(200, 800, 3200), deep=4, steps=6, seconds=200):
-	"""What a place costs in a step of one iteration, most over least for plates of these widths [cells]: 1 where it is linear in their number."""
+	"""Cost of a contact point in a step of one iteration, most over least for plates of these widths [cells]: 1 where it is linear in their number."""
 	found = []
 	for wide in sizes:
 		one = share(2, wide, deep, steps, 0., seconds / len(sizes))
@@ -75,7 +75,7 @@ def _secondsOfBall(dim, radius, wide, deep, steps, friction, seconds):
 
 
 def ball(dim=3, wide=12, deep=4, steps=20, friction=.3, runs=3, seconds=200):
-	"""How much more a step in time takes where places on a ball of two cells of radius are an eighth of a cell apart than where they are a quarter, as on one that is a thousandth smaller.
+	"""Ratio of the times of a time step with contact points an eighth of a cell apart on a ball of two cells of radius, and with a quarter, as on one that is a thousandth smaller.
 
 	:param runs: of each, in turn, of which the fastest counts
 	"""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the cases have in common: steps that are counted and end in time, and how smooth a curve is."""
+"""Common parts of the cases: steps that are counted and end in time, and how smooth a curve is."""
 import contextlib
 import os
 import re
@@ -25,7 +25,7 @@ class Course:
 		self.steps, self.iterations, self.cuts, self.why = 0, 0, 0, ''
 
 	def run(self, steps, look=lambda: None):
-		"""Whether all of the steps were made; look() after each."""
+		"""True if all of the steps were made; look() after each."""
 		for _ in range(steps):
 			if self.why: return False
 			if time.process_time() > self.ends: self.why = 'time is up'
@@ -54,7 +54,7 @@ def reason(failure):
 
 
 def reasons(whys, most=5):
-	"""How often each of them, numbers left out."""
+	"""Number of times of each of them, without the numbers in it."""
 	count = Counter(re.sub(r'[-+]?\d[\d.e+-]*|\(.*?\)', '..', why) for why in whys if why)
 	return '; '.join(f'{n} x {why}' for why, n in count.most_common(most))
 
@@ -91,7 +91,7 @@ class _Said:
 
 @contextlib.contextmanager
 def said():
-	"""What is written to the standard error meanwhile, as warnings of the plugin are: `with said() as it: ...; it.text`."""
+	"""Standard error while the block runs, as warnings of the plugin are: `with said() as it: ...; it.text`."""
 	it, kept = _Said(), os.dup(2)
 	with tempfile.TemporaryFile() as file:
 		os.dup2(file.fileno(), 2)

@@ -13,7 +13,7 @@ from .course import Course, reasons, said
 
 O = Omega()
 schemes = 'newmark', 'generalised-alpha', 'midpoint'
-admitted = 1e-3  # of the first energy
+admitted = 1e-3  # part of the first energy
 
 
 def falling(E, nu, size, points, h, velocity, bodies, scheme, part, end, seconds, density=1000., gravity=0., **rubs):
@@ -45,7 +45,7 @@ def falling(E, nu, size, points, h, velocity, bodies, scheme, part, end, seconds
 
 
 def _sum(runs):
-	"""Of many runs."""
+	"""Summary of many runs."""
 	worst = max(runs, key=lambda k: runs[k]['gave'])
 	told = dict(energy=max(r['energy'] for r in runs.values()), contactWork=max(r['gave'] for r in runs.values()))
 	told |= dict(gains=sum(r['energy'] > 1 + admitted for r in runs.values()), gifts=sum(r['gave'] > admitted for r in runs.values()))

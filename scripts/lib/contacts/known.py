@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What was right with the corners of domains: scenes of examples/penetration, by their own scripts."""
+"""Scenes of examples/penetration that were right with the corners of domains, by their own scripts."""
 import contextlib
 import io
 import os

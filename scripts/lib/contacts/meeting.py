@@ -11,12 +11,12 @@ from .course import Course, reasons, said
 
 O = Omega()
 schemes = 'newmark', 'generalised-alpha', 'midpoint'
-admitted = 1e-3  # of the first energy
+admitted = 1e-3  # part of the first energy
 h, density = .1, 1800.
 
 
 class Scene:
-	"""By its seed: one or two turned blocks or polygons above a block. In time they fly at each other, all free, or fall on the lowest, which is held; in statics the upper one is pushed down and along by a row of nodes."""
+	"""Scene of a seed: one or two turned blocks or polygons above a block. In time they fly at each other, all free, or fall on the lowest, which is constrained; in statics the upper one is pushed down and along by a row of nodes."""
 
 	def __init__(self, seed):
 		draw = self.draw = random.Random(seed)
@@ -99,7 +99,7 @@ def run(seed, seconds):
 
 
 def drawn(seeds=(0, 300), seconds=300):
-	"""How many end, how many of these that move win energy, and how well forces or momenta balance."""
+	"""Number of runs that end, of those that move and gain energy, and the balance of forces or momenta."""
 	runs = {}
 	for seed in range(*seeds):
 		with said():

@@ -41,7 +41,7 @@ def _told(forces, courses, **more):
 
 
 def _plates(kind, number):
-	"""With their faces at y = 1."""
+	"""Bodies with their faces at y = 1."""
 	if kind == 'box': return [One(utils.box((.5, 1.5, 0), (3, .5, 1), material='rigid', fixed=True)) for _ in range(number)]
 	if kind == 'wall': return [One(utils.wall(1, axis=1, sense=-1, material='rigid')) for _ in range(number)]
 	if kind == 'facet': return [One(utils.facet([(-9, 1, 0), (9, 1, 0), (0, 1, 9)], material='rigid', fixed=True)) for _ in range(number)]

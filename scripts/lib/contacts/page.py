@@ -10,7 +10,7 @@ def text(value):
 
 
 def bound(low, high):
-	"""As a phrase."""
+	"""Bounds as a phrase."""
 	if low == -inf: return f'at most {high:.4g}'
 	if high == inf: return f'at least {low:.4g}'
 	return f'{low:.4g} ... {high:.4g}'

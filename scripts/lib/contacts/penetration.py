@@ -249,7 +249,7 @@ def sandInSpace(depth=3., radius=.4, cells=2, wide=5., points=2, stiffness=20., 
 
 
 def quarterPushedIntoSand(travel, radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600):
-	"""What pushedIntoSand returns; *travel* in m."""
+	"""Result of pushedIntoSand; *travel* in m."""
 	O.reset()
 	_sandMaterial()
 	h = radius / cells

@@ -5,7 +5,7 @@ from math import inf, log
 
 Case = namedtuple('Case', 'name function arguments short bounds')
 cases = {}
-derived = {}  # what follows from the results of several cases: functions of these, None if one is missing
+derived = {}  # functions of the results of several cases, None if one is missing
 
 
 def add(name, function, bounds, short=None, **arguments):
@@ -28,7 +28,7 @@ for cells in 2, 3, 4, 6, 8:
 
 
 def atNoSize(found):
-	"""Where a straight line through values by the cells of a radius gets on cells of no size, and its slope by their size over the radius."""
+	"""Value on cells of no size, by a straight line through values by the cells of a radius, and its slope by their size over the radius."""
 	size, N = [1 / cells for cells in found], list(found.values())
 	mean = sum(size) / len(found), sum(N) / len(found)
 	slope = sum((x - mean[0]) * (y - mean[1]) for x, y in zip(size, N)) / sum((x - mean[0])**2 for x in size)
@@ -80,7 +80,7 @@ add('tip-45', 'thin.tip', alike, degrees=45.)
 add('tip-20', 'thin.tip', alike, degrees=20.)
 add('edge-upright', 'thin.edge', alike | dict(mean=near(1., .2)), degrees=90., rough=1.)
 add('edge-leaning', 'thin.edge', alike, degrees=45., rough=0.)
-# What is not as thin as that, but small still
+# Bodies that are not as thin as that, but small still
 add('ball-1', 'thin.ball', alike, diameter=1., wide=6)
 for width in 1.2, 2., 2.5, 3., 4.:
 	add(f'strip-{width:g}', 'thin.strip', alike, width=width, wide=24)
@@ -99,8 +99,8 @@ for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
 
 # 5. Turning: one full turn of a sheared block with its plates [degrees, -], and torques over their closed forms
 turned = dict(turned=atLeast(359.9), angle=atMost(1), size=atMost(.02))
-# What is lost of the size of the force is what points lose in turning, in the plane as much as across the normal in 3D with the same cells and points: it is judged with 4 cells over the half height and 3 points, or 2 and 4, and
-# told besides, on the coarsest grid as the angle is.
+# Loss of the size of the force is the loss of points in turning, in the plane as much as across the normal in 3D with the same cells and points: it is judged
+# with 4 cells over the half height and 3 points, or told besides, on the coarsest grid as the angle is.
 for cells, points in (1, 2), (2, 2), (2, 3), (4, 2), (4, 3):
 	judged = ['turned'] if (cells, points) == (1, 2) else turned if (cells, points) == (4, 3) else ['turned', 'angle']
 	add(f'turn-plane-{cells}-{points}', 'turning.block', {name: turned[name] for name in judged}, dim=2, cells=cells, points=points)
@@ -138,8 +138,9 @@ add('floors-explicit', 'overlap.explicitFloors', dict(imbalance=atMost(.01)))
 
 # 7. Free bodies: by how much way and speed are off those of closed forms, from two places in a cell, and the change of momentum in an impact over that of the sphere
 rolls = dict(off=atMost(.01), speedOff=atMost(.01))
-# What rolls sticks, by springs a twentieth as stiff as the penalty: by these it creeps. And its friction is lost where it bounces, as it does where it passes the nodes as fast as it swings on the ground:
-# with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes them four times as fast.
+# Rolling bodies stick, by springs a twentieth as stiff as the penalty: by these they creep. Their friction is lost where they bounce, as it does where one
+# passes the nodes as fast as it swings on the ground: with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes
+# them four times as fast.
 rollsOn = dict(young=3.4e7, stiffness=400., dt=1e-3, h=.05, rest=.4, long=17, seconds=400)
 # On 30 degrees rolling takes .82 of a friction of .2, and as the normal force swings it slips.
 slopes = {.2: dict(degrees=20., end=.6)}

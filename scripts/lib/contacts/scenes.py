@@ -19,7 +19,7 @@ kinds = 'box', 'box', 'turned box', 'sphere', 'wall', 'facet', 'clump'
 
 
 class Scene:
-	"""By its seed: a body of soil on a held base, and one or two rigid bodies above it, which are pushed into it, dragged over it, or fall on it."""
+	"""Scene of a seed: a body of soil on a constrained base, and one or two rigid bodies above it, which are pushed into it, dragged over it, or fall on it."""
 
 	def __init__(self, seed):
 		draw = self.draw = random.Random(seed)
@@ -123,7 +123,7 @@ class Scene:
 		return _Clump(clump)
 
 	def _move(self):
-		"""What is pushed has the speed that makes its way in a step; in time steps it is at least .05 m/s."""
+		"""Speed of a pushed body that makes its way in a step; in time steps it is at least 0.05 m/s."""
 		if self.isFree: return
 		for body, rigid in zip(self.bodies, self.rigid):
 			a, b = (x * self.h / O.dt for x in body['way'])
@@ -164,7 +164,7 @@ def run(seed, seconds):
 
 
 def drawn(seeds=(0, 1000), seconds=900):
-	"""How many end, how well forces balance in statics, and the seeds that do not."""
+	"""Number of runs that end, the balance of forces in statics, and the seeds that do not end."""
 	runs = {}
 	for seed in range(*seeds):
 		with said():

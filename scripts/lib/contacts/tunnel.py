@@ -14,7 +14,7 @@ kinds = 'wall', 'facet', 'box', 'thin box', 'turned box', 'sphere'
 
 
 def _body(kind):
-	"""With its upper end at y = *place*, under a block from y = 0 on."""
+	"""Body with its upper end at y = *place*, under a block from y = 0 on."""
 	if kind == 'wall': return One(utils.wall(place, axis=1, sense=1, material='rigid'))
 	if kind == 'facet': return One(utils.facet([(-9, place, 0), (9, place, 0), (0, place, 9)], material='rigid', fixed=True))
 	if kind == 'box': return One(utils.box((side / 2, place - .5, 0), (2, .5, 1), material='rigid', fixed=True))
@@ -24,7 +24,7 @@ def _body(kind):
 
 
 def _behind(kind, body, places):
-	"""How many middles of points are in the body by more than a tenth of a cell, or beyond it where it cannot be passed."""
+	"""Number of centres of points that are in the body by more than a tenth of a cell, or beyond it where it cannot be passed."""
 	if kind in ('wall', 'facet'): return int((places[:, 1] < body.state.pos[1] - .1 * h).sum())
 	deep = body.depths(places) > .1 * h
 	if kind in ('box', 'thin box'): deep |= places[:, 1] < body.state.pos[1]

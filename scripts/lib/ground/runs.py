@@ -10,9 +10,9 @@ from .scenes import sceneOf
 from .soils import weight
 
 O = Omega()
-same = .05  # of the load at which two runs fail
-told = .05  # of the work of a step, that the stabilisation takes up: more is warned of
-exact = 1e-5  # of the sizes of all forces, that may be out of balance in statics
+same = .05  # part of the load at which two runs fail
+told = .05  # part of the work of a step that the stabilisation takes up: more is warned of
+exact = 1e-5  # part of the sizes of all forces that may be out of balance in statics
 
 
 def balanceOf(scene, solver):

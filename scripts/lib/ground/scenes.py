@@ -21,7 +21,7 @@ def kind(scene):
 
 
 class Scene:
-	"""By its seed: *steps* load steps; what is dug away or put there stage by stage is in *before*."""
+	"""Scene of a seed: *steps* load steps; soil that is dug away or put there stage by stage is in *before*."""
 	laws, dims, isDynamic, h = all, (2, ), False, .5
 
 	def __init__(self, seed):
@@ -61,7 +61,7 @@ class Scene:
 		mpm.geostatic(K0=self.soil.K0)
 
 	def before(self, step, solver):
-		"""What changes before a step."""
+		"""Changes before a step."""
 
 	def box(self, low, high):
 		"""Places [m] from corners in cells, (x, height) or (x, z, height), of which z is left out in the plane."""
@@ -91,11 +91,11 @@ class Scene:
 		return {}
 
 	def load(self, part):
-		"""What has been borne after this part of the way, by which runs in other steps are compared."""
+		"""Load that has been borne after this part of the way, by which runs in other steps are compared."""
 		return part
 
 	def mayFail(self):
-		"""Whether equilibrium may be impossible, for all that is known."""
+		"""True if equilibrium may be impossible, for all that is known."""
 		return False
 
 	def __str__(self):
@@ -194,7 +194,7 @@ class Cutting(Ground):
 		return int(part * self.rows + 1e-6)
 
 	def farthest(self):
-		"""Of all points [cells]."""
+		"""Largest displacement of all points [cells]."""
 		points = mpm.arrays()
 		return float(np.linalg.norm(points['pos'] - points['pos0'], axis=1).max() / self.h)
 
@@ -204,7 +204,7 @@ class Cutting(Ground):
 
 @kind
 class Cut(Cutting):
-	"""With a vertical face that nothing holds; in space a strip of it, or the corner of a pit."""
+	"""Ground with a vertical face that nothing supports; in space a strip of it, or the corner of a pit."""
 	dims = (2, 2, 2, 3)
 
 	def plan(self):
@@ -220,7 +220,7 @@ class Cut(Cutting):
 		return not self.soil.isSurelyStable(self.rows * self.h)
 
 	def isRight(self, solver):
-		"""What no equilibrium can hold has moved, where the run has got to its end all the same."""
+		"""Check that soil without a possible equilibrium has moved, where the run has got to its end all the same."""
 		moved = self.farthest()
 		return dict(moved=(moved, moved > .1 or self.across > 0 or not self.soil.isSurelyUnstable(self.rows * self.h)))
 
@@ -259,7 +259,7 @@ class Sheetpile(Cutting):
 		O.engines[0].loads = [MpmBeam(line=[(x, 0), (x, -self.long * self.h)], axialStiffness=1e10, bendingStiffness=self.bending, adhesion=0, fixFoot='y')]
 
 	def isDug(self, point):
-		"""What the wall pushes over the line stays."""
+		"""True for a point of the side that is dug out; those that the wall pushes over the line stay."""
 		return point.id in self.right
 
 	def mayFail(self):

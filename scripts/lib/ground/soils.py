@@ -34,7 +34,7 @@ class Soil:
 
 	@property
 	def K0(self):
-		"""Of ground at rest; None: that of the material, which clay without friction and a cone that fits plane strain do not bear."""
+		"""Ratio of stresses of ground at rest; None: that of the material, which clay without friction and a cone that fits plane strain do not bear."""
 		return dict(vonMises=1., tresca=1., druckerPrager=.8).get(self.law)
 
 	@property
@@ -42,11 +42,11 @@ class Soil:
 		return (1 + sin(self.phi)) / (1 - sin(self.phi))
 
 	def isSurelyStable(self, height):
-		"""Whether ground of this height bears its weight with a vertical face: the stress field of Drucker and Prager (1952). True where nothing flows."""
+		"""True if ground of this height bears its weight with a vertical face: the stress field of Drucker and Prager (1952). True where nothing flows."""
 		return self.law == 'elastic' or weight * height <= 2 * self.cohesion * sqrt(self.passive)
 
 	def isSurelyUnstable(self, height):
-		"""Whether a plane slip brings a vertical face down (Coulomb 1776), by half of its weight more than needed; known for associated flow, of which that with less dilation bears no more."""
+		"""True if a plane slip brings a vertical face down (Coulomb 1776), by half of its weight more than needed; known for associated flow; soil with less dilation bears no more."""
 		return self.law != 'elastic' and weight * height > 6 * self.cohesion * sqrt(self.passive)
 
 	def bearing(self, width, cover=0.):

@@ -15,14 +15,14 @@ from .scene import Scene, density, gravity, textOf, young
 from .view import View, views
 
 O = Omega()
-close = 1e-9  # where round-off differs: of the largest of the quantity
-# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see
+close = 1e-9  # part of the largest of the quantity, where round-off differs
+# Operations that are exact in binary numbers, and sum nothing in another order, keep the bits: see
 # differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
 
 
 class Run:
-	"""What became of a scene: quantities by name, as the scene has them; forces, energies; or the refusal."""
+	"""Outcome of a scene: quantities by name, as the scene has them; forces, energies; or the refusal."""
 
 	def __init__(self, scene, view):
 		self.scene, self.view, self.error = scene, view, None
@@ -39,7 +39,7 @@ class Run:
 		space = {name: getattr(yade.wrapper, name) for name in dir(yade.wrapper) if not name.startswith('_')}
 		space |= dict(O=O, inf=np.inf, mpm=mpm, pack=pack, utils=utils, Vector3=yade.minieigenHP.Vector3)
 		exec(compile(self.text, '<scene>', 'exec'), space)
-		self.steps = []  # of each, momentum [N s] and the forces from outside [N]
+		self.steps = []  # momentum [N s] and the forces from outside [N] of each step
 		for step in range(space['steps']):
 			solver = next(e for e in O.engines if e.label == 'solver')
 			exec(space['actions'].get(step, ''), space | dict(solver=solver))
@@ -65,7 +65,7 @@ class Run:
 		for b in points:
 			mass = b.material.density * b.state.volume0
 			momentum += mass * np.array(b.state.vel)
-			share = b.material.density / density  # of what is placed or dug out step by step: its twin of the material has it, and point loads go with the weight
+			share = b.material.density / density  # part of the weight in stages: the twin of the material has it, and point loads go with the weight
 			forces += [mass * ofGravity * np.array(solver.gravity), share * factor * np.array(b.state.force)]
 		return momentum, sum(forces), sum(np.linalg.norm(f) for f in forces)
 
@@ -104,7 +104,7 @@ def unitsOf(scene):
 
 
 def differences(run, other, name):
-	"""What differs more than it should, as sentences."""
+	"""Differences that are larger than they should be, as sentences."""
 	if run.error or other.error: return [] if (run.error or '').split(' ')[:3] == (other.error or '').split(' ')[:3] else [f'{name}: {other.error or "no exception"}, unlike {run.error or "no exception"}']
 	units = unitsOf(run.scene)
 	if run.keys.shape != other.keys.shape or (run.keys != other.keys).any():
@@ -166,7 +166,7 @@ def balance(run):
 		for step, (_, force, sizes) in enumerate(run.steps):
 			off = max(abs(force[a]) for a in axes) / max(sizes, unitsOf(scene)['force'])
 			if off > 1e-8: found.append(f'balance: {off:.1e} of the forces are left over after step {step + 1}')
-	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # by forces that change, of which the other schemes take other means, as contact does in all
+	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # true if forces change, for which the other schemes take other means, as contact does in all
 	if scene.isFreeAlongX and not scene.water and not scene.shape and (scene.scheme == 'newmark' or not isLoaded):
 		for step in range(1, len(run.steps)):
 			(before, force0, size0), (after, force1, size1) = run.steps[step - 1:step + 1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a scene is made of, which combinations are refused and in what words, and a list of scenes that has every pair often enough. Nothing here needs YADE."""
+"""Features of a scene, combinations that are refused and in what words, and a list of scenes that has every pair often enough. Nothing here needs YADE."""
 import itertools
 import random
 
@@ -8,10 +8,10 @@ laws = ['elastic', 'vonMises', 'tresca', 'mohrCoulomb', 'druckerPrager', 'camCla
 schemes = ['static', 'newmark', 'generalisedAlpha', 'midpoint', 'explicit']
 shapes = ['box', 'sphere', 'facet', 'plate', 'clump']  # plate: YADE's Wall
 motions = ['fixedBody', 'movedBody', 'freeBody']
-walls = ['roughWall', 'smoothWall']  # of an MpmBoundary that is a surface
+walls = ['roughWall', 'smoothWall']  # kinds of an MpmBoundary that is a surface
 waters = ['waterLevel', 'waterFunction']
 others = ['fields', 'fBar', 'period', 'refinement', 'movingWall', 'friction', 'traction', 'pressure', 'pointLoad', 'place', 'excavate', 'splitting', 'pushed', 'absorbing', 'baseMotion', 'twoEngines']
-groups = [geometries, laws, schemes, shapes, motions, walls, waters]  # of each of them a scene has one at most
+groups = [geometries, laws, schemes, shapes, motions, walls, waters]  # a scene has one of each group at most
 features = [feature for group in groups for feature in group] + others
 dynamic = schemes[1:]
 
@@ -55,10 +55,10 @@ def refusals(chosen):
 
 
 def placesOf(chosen):
-	"""Where on the body each feature acts, by feature, or None where there is not room for all of them."""
+	"""Part of the body on which each feature acts, by feature, or None where there is not room for all of them."""
 	free = {'base', 'top left', 'top right'}
 	if 'period' not in chosen: free |= {'left', 'right'} if 'axisymmetric' not in chosen else {'right'}
-	if 'camClay' in chosen: free -= {'left', 'right'}  # which confine it
+	if 'camClay' in chosen: free -= {'left', 'right'}  # sides that confine the clay
 	wanted = {
 	        'baseMotion': ['base'], 'absorbing': ['base'], 'roughWall': ['base', 'left'], 'smoothWall': ['base', 'left'], 'pushed': ['left', 'base'], 'movedBody': ['top left'], 'freeBody': ['top left'],
 	        'fixedBody': ['right', 'top left'], 'place': ['top right'], 'excavate': ['top right', 'right'], 'traction': ['top right', 'right'], 'pressure': ['right', 'top right']
@@ -80,14 +80,14 @@ def isComplete(chosen):
 
 
 def isMeant(chosen):
-	"""Whether a scene can have these features, be it refused."""
+	"""True if a scene can have these features, be it refused."""
 	places = placesOf(chosen)
 	isBuried = 'place' in chosen and 'plate' in chosen and (places or {}).get('fixedBody') != 'right'  # a layer behind an infinite plate
 	return not any(pair in senseless for pair in _pairs(chosen)) and isComplete(chosen) and places is not None and not isBuried
 
 
 def _completed(chosen, choose, mayRefuse):
-	"""With a geometry, a law, a scheme and what the features need, or None."""
+	"""Features with a geometry, a law, a scheme and what they need, or None."""
 	chosen = list(chosen)
 	for group in [geometries, laws, schemes] + [group for feature in chosen for group in needs.get(feature, [])]:
 		if any(f in chosen for f in group): continue
@@ -122,7 +122,7 @@ class Plan:
 	def next(self):
 		least = min(self.counts.values())
 		chosen = self._extended(self.random.choice([pair for pair in allPairs if self.counts[pair] == least]))
-		pairs = refusals(chosen) or _pairs(chosen)  # of those that are refused the words are the same
+		pairs = refusals(chosen) or _pairs(chosen)  # refused pairs have the same words
 		for pair in pairs:
 			self.counts[pair] += 1
 		self.scenes.append(chosen)

@@ -38,7 +38,7 @@ class Scene:
 		return any(f in self.chosen for f in features)
 
 	def _support(self, draw):
-		"""What holds the body, and where it lies between the lines of the grid."""
+		"""Sets the constraints of the body, and its position between the lines of the grid."""
 		roughBase = 'smoothWall' not in self.chosen and self.places.get('pushed') != 'left' and draw.random() < .7
 		onLeft = self.places.get('roughWall', self.places.get('smoothWall')) == 'left' or self.places.get('pushed') == 'left'
 		self.isRough = roughBase or self.isPeriodic
@@ -102,7 +102,7 @@ class _Text:
 		name, own = _laws[s.law]
 		values = dict(density=density * v.D)
 		if s.law != 'camClay': values |= dict(young=young * v.S, poisson=.3)
-		if s.fixedOnTop and s.law != 'camClay': own = {key: value * (4 if key in pressures else 1) for key, value in own.items()}  # as it hangs
+		if s.fixedOnTop and s.law != 'camClay': own = {key: value * (4 if key in pressures else 1) for key, value in own.items()}  # stronger, as the body hangs
 		values |= {key: value * v.S if key in pressures else value for key, value in own.items()}
 		self.add(f'O.materials.append({name}({_arguments(values)}, label="soil"))')
 		if s.has('twoEngines'): self.add(f'O.materials.append(MpmElasticMat(young={young * v.S}, poisson=.2, density={density * v.D}, label="other"))')
@@ -149,7 +149,7 @@ class _Text:
 		if s.random.random() < .4 and not s.isPeriodic and not s.isConfined and s.dim == 2: regions = [self._part((0, 0, 0), (nx, ny - 1, nz)), self._part((0, 0, 0), (nx - 1, ny, nz))] if not (s.places.keys() & {'traction', 'pressure', 'fixedBody', 'excavate', 'place'}) else regions
 		self._filled('points', regions)
 		if s.has('freeBody', 'twoEngines') or s.isFree: self.add('for body in points: body.groupMask = 2')
-		# By volume, so that refined cells with more points do not bear more
+		# Forces by volume, so that refined cells with more points do not bear more
 		force = self.view.vector((1.5e3, -2e3, 1e3 if s.dim == 3 else 0.), self.view.F / self.view.volume) if not s.isRing else self.view.vector((3e2, -5e2, 0.), self.view.F / self.view.volume)
 		if s.has('pointLoad'): self.add(f'for body in points[::1]:\n\tif placeInScene(body.state.pos)[1] > {(ny - 1 + s.offset[1]) * s.cell}: body.state.force = body.state.volume * Vector3({force})')
 
@@ -221,7 +221,7 @@ class _Text:
 		return self._triangles(a, b, axis, side)
 
 	def _triangles(self, a, b, axis, side):
-		"""As small as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
+		"""Pieces as small as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
 		u, w = [k for k in range(3) if k != axis]
 		if (axis == 1) == (side > 0): u, w = w, u
 		n = {k: math.ceil((b[k] - a[k]) / self.scene.cell * (12 if self.scene.has('refinement') else 6) - 1e-9) for k in (u, w)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How a scene is looked at: turned and mirrored, moved by whole cells, in other units, with bodies in another order. Nothing here needs YADE."""
+"""View of a scene: turned and mirrored, moved by whole cells, in other units, with bodies in another order. Nothing here needs YADE."""
 import math
 
 import numpy as np
@@ -25,7 +25,7 @@ class View:
 		length, stress, density = scales
 		self.L, self.S, self.D, self.T = 2.**length, 2.**stress, 2.**density, 2.**(length + (density - stress) // 2)
 		assert (density - stress) % 2 == 0
-		self.F = self.S * self.L**(1 if dim == 2 and not isRing else 2)  # of forces
+		self.F = self.S * self.L**(1 if dim == 2 and not isRing else 2)  # unit of forces
 		self.volume = self.L**(2 if dim == 2 and not isRing else 3)
 
 	@property
@@ -41,7 +41,7 @@ class View:
 		return _tuple(self.turn @ np.array(v, float) * unit)
 
 	def around(self, w, unit=1.):
-		"""Of angular velocities and torques."""
+		"""Vector of angular velocities and torques."""
 		return _tuple(np.linalg.det(self.turn) * (self.turn @ np.array(w, float)) * unit)
 
 	def sizes(self, extents):
@@ -102,7 +102,7 @@ def _tuple(x):
 
 
 def views(dim, chosen, random, cell):
-	"""What to compare a scene with, by name. Around an axis only what keeps the axis; a period is where the grid begins, which is moved along."""
+	"""Views to compare a scene with, by name. Around an axis only those that keep the axis; a period is where the grid begins, which is moved along."""
 	isRing = 'axisymmetric' in chosen
 	mirror, quarter = [(a, 1) for a in range(3)], {2: [[(1, 1), (0, -1), (2, 1)], [(1, -1), (0, 1), (2, 1)]], 3: [[(1, 1), (2, 1), (0, 1)], [(0, 1), (2, 1), (1, -1)], [(2, -1), (1, 1), (0, 1)]]}[dim]
 	axis = 1 if isRing else random.randrange(dim)

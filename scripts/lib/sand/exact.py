@@ -2,7 +2,8 @@
 """Limit loads of sand that are known, with psi = phi."""
 from math import exp, pi, radians, tan
 
-# Of the method of characteristics (Martin 2005, ABC), and bounded by limit analysis (Hjiaj, Lyamin and Sloan 2005), by the angle of friction [degrees]: smooth, rough.
+# Results of the method of characteristics (Martin 2005, ABC), bounded by limit analysis (Hjiaj, Lyamin and Sloan 2005), by the angle of friction [degrees]:
+# smooth, rough.
 weights = {20: (1.579, 2.839), 30: (7.653, 14.75)}
 
 

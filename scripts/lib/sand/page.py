@@ -20,7 +20,7 @@ def extrapolated(values):
 
 
 def table(rows):
-	"""Of one group, in Markdown."""
+	"""Table of one group, in Markdown."""
 	lines = ['| | | grid | exact | at a quarter | at the end | last tenth | iterations | cuts | points | seconds | |', '|---|---|---|---|---|---|---|---|---|---|---|---|']
 	for row in rows:
 		number = lambda name: float(row[name] or 'nan')
@@ -30,7 +30,7 @@ def table(rows):
 
 
 def conditions(rows):
-	"""By state and stabilisation, over the part of a cell that is filled."""
+	"""Lines by state and stabilisation, over the part of a cell that is filled."""
 	lines = []
 	for state in dict.fromkeys(row['case'] for row in rows):
 		of = [row for row in rows if row['case'] == state]
@@ -44,7 +44,7 @@ def conditions(rows):
 
 
 def extrapolations(rows):
-	"""Of strips that were run on three grids, in Markdown; empty if there are none."""
+	"""Table of strips that were run on three grids, in Markdown; empty if there are none."""
 	lines = []
 	for case, points in dict.fromkeys((row['case'], row['with']) for row in rows):
 		of = [row for row in rows if (row['case'], row['with']) == (case, points)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What scripts/sand runs: groups of cases, each a function of this package, the words that name the case, and its arguments."""
+"""Plan of scripts/sand: groups of cases, each a function of this package, the words that name the case, and its arguments."""
 
 grids = 4, 8, 16
 problems = {
@@ -63,7 +63,7 @@ def limit():
 
 
 def causes():
-	"""What makes the load of the smooth strip, 20 degrees, B/17, one point a cell, depend on the number of steps: one thing changed at a time."""
+	"""Causes for the load of the smooth strip, 20 degrees, B/17, one point a cell, to depend on the number of steps: one thing changed at a time."""
 	stiff, stiffer = dict(stiff=1e5, settlement=2.5e-5), dict(stiff=1e6, settlement=2.5e-6)
 	changes = {
 	        'E of 1e4': {},
@@ -82,7 +82,7 @@ def causes():
 
 
 def parts():
-	"""What the load of the smooth strip, 20 degrees, B/17, is made of: one thing changed at a time."""
+	"""Causes of the load of the smooth strip, 20 degrees, B/17: one thing changed at a time."""
 	changes = {
 	        '2 x 2 points': {},
 	        '1 point': dict(points=1),

@@ -12,11 +12,11 @@ from .exact import cohesionFactor, surchargeFactor, weightFactor
 O = Omega()
 density, gravity = 2000, 10.
 weight = density * gravity
-early = .25  # of the way
+early = .25  # part of the way
 
 
 def sizes(phi, isRough):
-	"""Of the ground, in widths, that holds the mechanism: half the width, depth."""
+	"""Size of the ground, in widths, that holds the mechanism: half the width, depth."""
 	return {(20, False): (1.5, .6), (20, True): (2., .8), (30, False): (2.5, 1.), (30, True): (3.5, 1.3)}[phi, isRough]
 
 

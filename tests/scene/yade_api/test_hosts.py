@@ -26,7 +26,7 @@ def test_packagesThatMakeRoots():
 def test_mirror():
 	"""Where apt gets packages is what the roots are made from."""
 	text = (root / 'scripts/hosts').read_text()
-	mirror = text[text.index('mirror() {'):text.index('# Whether apt refuses')]
+	mirror = text[text.index('mirror() {'):text.index('# Option of apt')]
 	assert said('bash', '-c', mirror + 'mirror').startswith('http')
 
 
