@@ -151,7 +151,7 @@ namespace {
 		const double          before = heap();
 		LinearSolver          solver;
 		solver.solve(K, b, x);
-		// That the solver holds: factor, scaled matrix.
+		// Memory of the solver: factor, scaled matrix.
 		state.counters["bytes_per_unknown"] = (heap() - before) / K.size();
 		const double flops                  = solver.analyse(K).flops;
 		solver.resetTimes();
@@ -205,7 +205,7 @@ namespace {
 		perItem(state, "s_per_point", run.points());
 	}
 
-	/// What the BLAS below the factorisation reaches at best.
+	/// Best speed of the BLAS below the factorisation.
 	void dgemm(benchmark::State& state)
 	{
 		const int             n   = 1000;

@@ -9,11 +9,11 @@ namespace yade {
 namespace {
 	template <int Dim> using Vec = gimpm::Vec<Dim>;
 
-	// As the core knows it. Elongations are those at the start of a step, without what the plate moves in it.
+	// Bed of the core. Elongations are those at the start of a step, without the motion of the plate in it.
 	template <int Dim> struct Bed {
 		Real                           stiffness;
-		int                            layer;                   // of nodes
-		Vec<Dim>                       lift = Vec<Dim>::Zero(); // of the plate in the step
+		int                            layer;                   // layer of nodes
+		Vec<Dim>                       lift = Vec<Dim>::Zero(); // lift of the plate in the step
 		std::map<gimpm::Key, Vec<Dim>> elongation {};
 		Vec<Dim>                       resultant = Vec<Dim>::Zero(); // on the soil
 		Real                           work      = 0;                // in the last step that was accepted
@@ -76,7 +76,7 @@ namespace {
 			const auto known = bed.elongation.find(end.key);
 			return known == bed.elongation.end() ? Vec<Dim>(Vec<Dim>::Zero()) : known->second;
 		}
-		// By which the spring resists.
+		// Force by which the spring resists.
 		Vec<Dim> force(const End& end, const Eigen::VectorXd& d) const
 		{
 			return bed.stiffness * (elongationOf(end) + d.template segment<Dim>(Dim * end.node) - bed.lift);
@@ -153,7 +153,7 @@ namespace {
 		}
 
 	private:
-		// As the soil is in a study of its strength.
+		// Stiffens the bed as a study of strength does with the soil.
 		static void stiffen(Bed<Dim>& bed, Real scale)
 		{
 			bed.stiffness /= scale;

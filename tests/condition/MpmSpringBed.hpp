@@ -25,14 +25,14 @@ public:
 	template <class V> static void attributes(V&& v)
 	{
 		using B = MpmSpringBed;
-		v("height", &B::height, 0, "Of the nodes [m], finite.", finite);
-		v("stiffness", &B::stiffness, 0, "Of the spring of each node, along all axes [N/m] > 0; without default.", positive);
+		v("height", &B::height, 0, "Height of the nodes [m], finite.", finite);
+		v("stiffness", &B::stiffness, 0, "Stiffness of the spring of each node, along all axes [N/m] > 0; without default.", positive);
 		v("young", &B::young, 0, "Young's modulus of the soil [Pa] > 0, for the limit of explicit steps.", positive);
 		v("lift", &B::lift, 0, "Displacement of the plate at factor 1 [m], finite.", finite);
 		v("curve", &B::curve, 0, "Factor [-] of that, as MpmImplicitEngine.loadCurve.", curveOrNothing);
 		v("resultant", &B::resultant, readonly, "Force on the soil in the last converged step [N].", finite);
 		v("work", &B::work, readonly, "On the soil in the steps in time so far [J].", finite);
-		v("halves", &B::halves, readonly, "How many points it has been told to be halved.", AnyValue());
+		v("halves", &B::halves, readonly, "Number of points that it has been told to be halved.", AnyValue());
 		v("nodes", &B::nodes, hidden, "", AnyValue());
 		v("elongations", &B::elongations, hidden, "", AnyValue());
 	}

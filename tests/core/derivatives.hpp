@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Of forces(d), which has the size of d.
+/// Derivative of forces(d), which has the size of d.
 template <class Forces> Eigen::MatrixXd derivative(const Forces& forces, const Eigen::VectorXd& d, double step)
 {
 	Eigen::MatrixXd result(d.size(), d.size());
@@ -31,8 +31,8 @@ template <int Dim> std::pair<Eigen::MatrixXd, Eigen::MatrixXd> tangentAndDerivat
 	return { dense(K), derivative(forces, d, step) };
 }
 
-/// Of the tangent stiffness of a step at d along a direction, from central differences with a step along it, relative
-/// to what it is.
+/// Relative error of the tangent stiffness of a step at d along a direction, from central differences with a step along
+/// it.
 template <int Dim> double tangentErrorAlong(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& direction, double step)
 {
 	NodeMatrix<Dim> K;
@@ -50,8 +50,8 @@ inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd&
 	return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
 }
 
-/// Of the stiffness of the last term of a step, at random displacements, from the derivative of its forces. These must
-/// not vanish.
+/// Error of the stiffness of the last term of a step, at random displacements, from the derivative of its forces. These
+/// must not vanish.
 template <int Dim> double tangentErrorOfLastTerm(const StepSystem<Dim>& system, const Grid<Dim>& grid, double step)
 {
 	const Term<Dim>&      term   = *system.terms.back();

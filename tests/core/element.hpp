@@ -53,7 +53,7 @@ template <class L> struct Element {
 	double pressure() const { return -stress.trace() / 3; }
 	double difference() const { return std::sqrt(1.5) * (stress - stress.trace() / 3 * Mat3::Identity()).norm(); }
 
-	/// Of the tangent after a strain, from differences with steps of a part of it, relative to what it is.
+	/// Relative error of the tangent after a strain, from differences with steps of a part of it.
 	double tangentError(const Mat3& strain, double part, double least) const
 	{
 		const double h = part * strain.norm();

@@ -28,7 +28,7 @@ inline Eigen::MatrixXd principalPart(const Eigen::MatrixXd& m, const std::vector
 	return part;
 }
 
-/// With a diagonal that is larger than all of its row.
+/// Matrix with a diagonal that is larger than all of its row.
 inline Eigen::MatrixXd withDominantDiagonal(Eigen::MatrixXd m)
 {
 	m.diagonal() = m.cwiseAbs().rowwise().sum().array() + 0.1;

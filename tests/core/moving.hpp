@@ -77,7 +77,7 @@ template <int Dim> struct Moving {
 			sum += motion->mass[p] * motion->velocity[p].squaredNorm() / 2;
 		return sum;
 	}
-	/// Of Hencky's law.
+	/// Elastic energy of Hencky's law.
 	double elastic() const
 	{
 		double sum = 0;
@@ -122,7 +122,7 @@ template <int Dim> struct Bar : Moving<Dim> {
 	}
 	double period() const { return 4 * length / wave; }
 
-	/// What the points' velocities have of the first mode [m/s].
+	/// First mode in the points' velocities [m/s].
 	double ofFirstMode() const
 	{
 		double sum = 0, norm = 0;

@@ -91,7 +91,7 @@ template <int Dim> void addPoint(PointCloud<Dim>& cloud, const Vec<Dim>& positio
 	cloud.material[i] = material;
 }
 
-/// Of all points, 0 where no point has one.
+/// Plastic strains of all points, 0 where no point has one.
 template <int Dim> std::vector<double> plasticStrains(const PointCloud<Dim>& cloud)
 {
 	const std::size_t column = internalVariables.find("plasticStrain");

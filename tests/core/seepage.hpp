@@ -7,14 +7,14 @@
 
 namespace gimpm::seepage {
 
-/// What flows through the soil, and what it does to it.
+/// Field that flows through the soil, and its effect on the soil.
 struct Medium {
-	/// Of a flow by the gradient of the pressure, times the duration of the step.
+	/// Flow by the gradient of the pressure, times the duration of the step.
 	double conductivity = 1;
-	double growth       = 0;    ///< of the conductivity, by the pressure [1/Pa]
-	double push         = 0;    ///< of the stress, by the pressure: 1 in pores, Young's modulus times expansion for a temperature
-	double storage      = 0;    ///< of the balance of what flows, by the volume of the soil: 1 in pores, 0 for a temperature
-	double sign         = 1;    ///< of the balance; -1 makes the matrix of pores symmetric
+	double growth       = 0;    ///< growth of the conductivity, by the pressure [1/Pa]
+	double push         = 0;    ///< stress by the pressure: 1 in pores, Young's modulus times expansion for a temperature
+	double storage      = 0;    ///< term of the balance by the volume of the soil: 1 in pores, 0 for a temperature
+	double sign         = 1;    ///< sign of the balance; -1 makes the matrix of pores symmetric
 	double ghost        = 0.01; ///< penalty on jumps of the gradient, over the conductivity
 };
 
@@ -102,7 +102,7 @@ private:
 	struct PointState {
 		double   volume, pressure = 0, J = 1;
 		Vec<Dim> slope = Vec<Dim>::Zero();
-		Mat<Dim> F     = Mat<Dim>::Identity(), inverse; // of the deformation in the step
+		Mat<Dim> F     = Mat<Dim>::Identity(), inverse; // deformation in the step
 		explicit PointState(double volume) : volume(volume) { }
 		void     finish() { J = F.determinant(), inverse = F.inverse(); }
 		Vec<Dim> now(const Vec<Dim>& gradient) const { return inverse.transpose() * gradient; }
@@ -178,7 +178,7 @@ template <int Dim> struct Body {
 	LinearSolver            solver;
 	Medium                  medium;
 	double                  before = 0, ends[2] = { 3e3, 7e3 };
-	std::vector<Vec<Dim>>   nodes; // of the last step that was accepted
+	std::vector<Vec<Dim>>   nodes; // nodes of the last step that was accepted
 	Eigen::VectorXd         value, flow;
 
 	explicit Body(double cut, const std::vector<HeldBox<Dim>>& more = {})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is expected of every law of soil, and strains to ask it for.
+// Expectations of every law of soil, and strains to ask it for.
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/materials/law.hpp"

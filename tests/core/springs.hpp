@@ -34,8 +34,8 @@ template <int Dim> struct Springs {
 	NodeMatrix<Dim>  K;
 	FreeDofs         dofs;
 
-	/// Of a box of so many nodes without those that `isGap` names; the lowest layer is held, and a node above it
-	/// along its first axis.
+	/// Springs of a box of so many nodes without those that `isGap` names; the lowest layer is constrained, and a
+	/// node above it along its first axis.
 	template <class F> Springs(const Index<Dim>& size, int reach, F&& isGap, const Index<Dim>& period = Index<Dim>::Zero())
 	{
 		grid.period = period;

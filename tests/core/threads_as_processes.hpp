@@ -13,7 +13,7 @@
 
 namespace gimpm {
 
-/// Where they meet.
+/// Meeting point of the threads.
 struct Place {
 	int                                         all, waiting = 0, rounds = 0;
 	std::mutex                                  mutex;

@@ -21,7 +21,7 @@ public:
 
 	TensorState initialInternals() const { return TensorState(variables); }
 
-	/// What may differ from point to point: Young's modulus, yieldStress, hardening.
+	/// Parameters that may differ from point to point: Young's modulus, yieldStress, hardening.
 	using Parameters = std::array<double, 3>;
 	Parameters         parameters() const { return { elastic_.young(), yield_, hardening_ }; }
 	KinematicHardening with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], viscosity_ }; }

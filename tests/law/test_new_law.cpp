@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a law with a variable and a failure of its own takes in the core: its header and one entry of
+// Law with a variable and a failure of its own in the core: its header and one entry of
 // core/materials/law.hpp. The core is compiled with an entry for Remembering here.
 #include "core/stepping/step_system.hpp"
 #include "remembering.hpp"

@@ -21,7 +21,7 @@ struct Data {
 	double* variables() const { return const_cast<double*>(s1.variables); }
 };
 
-/// Of K I + 2 G (...), row by row.
+/// Entry of K I + 2 G (...), row by row.
 double elastic(int i, int j, double K, double G) { return (i == j ? 2 * G : 0) + (i < 3 && j < 3 ? K - 2. / 3 * G : 0); }
 
 int failed(const Data& d, const char* why) { return std::strncpy(d.words, why, 511), -1; }

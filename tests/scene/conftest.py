@@ -28,7 +28,7 @@ systemCommand = '/usr/bin/yade'
 
 @dataclass
 class Run:
-	"""What a YADE process left."""
+	"""Results of a YADE process."""
 	exitCode: int
 	stdout: str
 	stderr: str
@@ -36,7 +36,7 @@ class Run:
 
 	@property
 	def result(self):
-		"""What the script printed last, read as JSON: print(json.dumps(...))"""
+		"""Last output of the script, read as JSON: print(json.dumps(...))"""
 		return json.loads(self.stdout.splitlines()[-1])
 
 	def __str__(self):
@@ -141,7 +141,7 @@ class Yade:
 	def __init__(self, folder):
 		self.folder = folder
 		self.command = theCommand()
-		self.isShared = False  # where the command is another one: whether many scripts use it
+		self.isShared = False  # true for another command that many scripts use
 		self.environment = {}  # variables in addition to those of this process
 
 	def __call__(self, script, *arguments, threads=1, processes=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
@@ -163,7 +163,7 @@ class Yade:
 		if (self.isShared or self.command == theCommand()) and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
 			run = started(self.command).run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
 			assert (run.exitCode != 0) == fails, str(run)
-			assert 'labels overlap in' not in run.stderr, run.stderr  # of the pictures of examples (labels.py)
+			assert 'labels overlap in' not in run.stderr, run.stderr  # pictures of examples (labels.py)
 			return run
 		ended = subprocess.run(
 		        [*byMpi(processes), self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
@@ -194,7 +194,7 @@ def interruptible():
 
 
 def outcomesOf(folder, setting, statements, before='O.reset()'):
-	"""What becomes of statements that are each tried after *before*, all in one YADE process.
+	"""Outcomes of statements that are each tried after *before*, all in one YADE process.
 
 	:return: dict of [name of the exception, its sentence] by statement
 	"""
@@ -251,7 +251,7 @@ def makeLibraries(prefix):
 
 
 def makeOverlay(prefix, engine=build / 'mpm/mpm_engine.so', withPetsc=True):
-	"""What scripts/setup --user makes, with the plugin of the build, or another library in its place.
+	"""Makes the overlay of scripts/setup --user, with the plugin of the build, or another library in its place.
 
 	:return: the command of YADE in it
 	"""

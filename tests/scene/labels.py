@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Which texts of a figure of matplotlib lie over each other, by the boxes around them; and a watch over all figures that a script saves."""
+"""Texts of a figure of matplotlib that lie over each other, by the boxes around them; and a watch over all figures that a script saves."""
 import sys
 
 

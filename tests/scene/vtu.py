@@ -15,7 +15,7 @@ class Vtu:
 		reader.Update()
 		assert reader.GetErrorCode() == 0, path
 		self.cells = reader.GetOutput()
-		about, times = reader.GetOutputInformation(0), reader.GetExecutive().TIME_STEPS() # as ParaView asks
+		about, times = reader.GetOutputInformation(0), reader.GetExecutive().TIME_STEPS() # same calls as those of ParaView
 		self.times = [about.Get(times, i) for i in range(about.Length(times))]
 		data = self.cells.GetCellData()
 		self.fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}

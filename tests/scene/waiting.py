@@ -7,7 +7,7 @@ def nextScript():
 	import gc, json, os, socket, sys
 	import matplotlib.pyplot  # takes longer to import than most scripts to run
 	gc.collect()
-	gc.freeze()  # what all have in common: each would copy its pages only to look for garbage there when it ends
+	gc.freeze()  # objects that all processes share: each would copy its pages only to look for garbage there when it ends
 	connection = socket.socket(fileno=int(sys.argv[1]))
 	while True:
 		message, streams, _, _ = socket.recv_fds(connection, 1 << 20, 2)

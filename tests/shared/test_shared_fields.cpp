@@ -35,7 +35,7 @@ namespace {
 		cloud          = partOf(cloud, model, *model.division);
 	}
 
-	/// Of the points of this process the largest distance from where they are in a whole.
+	/// Largest distance of the points of this process from their positions in a whole.
 	template <int Dim> double distance(const PointCloud<Dim>& own, const Division& division, const PointCloud<Dim>& whole)
 	{
 		double largest = 0;
@@ -66,7 +66,7 @@ namespace {
 			StepReport told, toldTogether;
 			run(alone, medium, told);
 			for (const bool isDivided : { false, true })
-				for (const auto method : { LinearMethod::direct, LinearMethod::iterative }) { // with multigrid
+				for (const auto method : { LinearMethod::direct, LinearMethod::iterative }) { // iterative: with multigrid
 					Body<Dim> together(0.3);
 					share(together.cloud, together.model, isDivided);
 					EXPECT_EQ(together.cloud.size() < alone.cloud.size(), isDivided);
@@ -114,7 +114,8 @@ int main(int count, char** arguments)
 	testing::InitGoogleTest(&count, arguments);
 	gimpm::testSharedFields::all();
 	const int failed = RUN_ALL_TESTS();
-	// Whoever opens the library ends MPI. There is another function of this name, of a solver for one process.
+	// MPI is ended by the program that opens the library. There is another function of this name, of a solver for
+	// one process.
 	const auto end = reinterpret_cast<int (*)()>(dlsym(dlopen(MPM_PETSC, RTLD_NOW | RTLD_NOLOAD), "MPI_Finalize"));
 	return end() + failed;
 }

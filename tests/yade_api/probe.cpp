@@ -53,7 +53,7 @@ public:
 	static const char*             doc() { return "A material."; }
 	template <class V> static void attributes(V&& v)
 	{
-		v("density", &ProbeMat::density, noSave, "Density.", positive); // of Material
+		v("density", &ProbeMat::density, noSave, "Density.", positive); // attribute of Material
 		v("young", &ProbeMat::young, 0, "Stiffness.", positive);
 	}
 	shared_ptr<State> newAssocState() const override { return shared_ptr<State>(new ProbeState); }

@@ -11,7 +11,7 @@ namespace yade {
 // Refuses a number of a body of points that the grid does not have, at `where`.
 void requireBody(int body, int count, const string& where);
 
-// Settings of an analysis as a model of the core, with the nodes that its conditions constrain; without points and terms.
+// Settings of an analysis as a model of the core, with the nodes that its conditions constrain; without points, terms.
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.

@@ -88,7 +88,7 @@ namespace {
 			}
 			return full;
 		}
-		/// Of the free unknowns, scaled.
+		/// Reduced matrix of the free unknowns, scaled.
 		Eigen::MatrixXd reducedFull() const
 		{
 			std::vector<int> free;
@@ -103,7 +103,7 @@ namespace {
 		LinearProblem problem() const { return LinearProblem(springs.K, dofs, &beside); }
 	};
 
-	/// Whether there is a library for it.
+	/// True if there is a library for it.
 	bool hasMultigrid()
 	{
 #ifdef MPM_PETSC
@@ -272,7 +272,7 @@ namespace {
 		return c.dofs.number[Dim * node];
 	}
 
-	/// Of the displacements of a node and its pressure.
+	/// Block of the displacements of a node and its pressure.
 	template <int Dim> Vec<Dim> blockOf(const Coupled<Dim>& c, int node)
 	{
 		Vec<Dim> block = Vec<Dim>::Zero();
@@ -399,7 +399,7 @@ namespace {
 		int size() const override { return 2; }
 	};
 
-	/// As multigrid and factors of several processes are given them.
+	/// Couplings as multigrid and factors of several processes get them.
 	TYPED_TEST(CouplingsOf, AreInTheRowsOfProcesses)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -11,7 +11,7 @@ namespace {
 
 	using namespace seepage;
 
-	/// Whether there is a library for it.
+	/// True if there is a library for it.
 	bool hasMultigrid()
 	{
 #ifdef MPM_PETSC
@@ -63,7 +63,7 @@ namespace {
 		const auto    condition = [](double cut, double ghost) {
                         Body<Dim> body(cut);
                         body.medium.ghost = ghost;
-                        // As large as the stiffness, with the scale of the field.
+                        // Conductivity as large as the stiffness, with the scale of the field.
                         body.medium.conductivity = 1 / body.young;
                         body.model.boundary      = Boundary<Dim>(
                                 prescribedSurface<Dim>(body.model.grid, cellsOf<Dim>(4, 1, 2), [](const Vec<Dim>&) -> Vec<Dim> { return Vec<Dim>::Zero(); }));
@@ -154,8 +154,8 @@ namespace {
 		}
 	}
 
-	/// What leaves the body is what its volume loses, and the order of convergence is that of Newton's method,
-	/// whether or not the matrix is symmetric.
+	/// Volume that leaves is the loss of the body, and the order of convergence is that of Newton's method, for a
+	/// symmetric matrix and for another one.
 	TYPED_TEST(Fields, WaterThatLeavesIsTheLossOfVolume)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -278,7 +278,7 @@ namespace {
 		EXPECT_EQ(explicitly.cause, "explicit steps are for displacements only, and there is the field 'pressure'");
 	}
 
-	/// Of a column on an impermeable base under a load, which drains at its top: the settlement is that of
+	/// Settlement of a column on an impermeable base under a load, which drains at its top, is that of
 	/// Terzaghi's series.
 	TEST(Fields, AColumnConsolidates)
 	{

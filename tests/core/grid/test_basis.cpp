@@ -91,7 +91,7 @@ namespace {
 			for (int n = -1; n <= b.cells + 1; ++n) {
 				const bool   active = n >= 0 && n <= b.cells;
 				const double node   = (b.cell + n) * d.h;
-				// Of the differences between ends and kinks.
+				// Noise of the differences between ends and jumps of the gradient.
 				const double noise = positionNoise(d) * d.h / d.l;
 				EXPECT_NEAR(active ? b.value[n] : 0, averagedHat(d, node), noise) << d.x << " " << d.l << " " << d.h << " node " << n;
 				const double slope = (hat(d.x + d.l - node, d.h) - hat(d.x - d.l - node, d.h)) / (2 * d.l);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which cells are boundary elements and which faces carry the ghost stiffness (Coombs 2023, figure 3).
+// Boundary elements and faces that carry the ghost stiffness (Coombs 2023, figure 3).
 #include "scenes.hpp"
 #include <algorithm>
 #include <set>

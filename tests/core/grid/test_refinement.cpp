@@ -71,7 +71,7 @@ namespace {
 		const auto    grid     = refinedGrid<Dim>({ { Vec<Dim>::Constant(2), Vec<Dim>::Constant(3), 2 } });
 		int           count[3] = {};
 		forLeaves<Dim>(grid, Index<Dim>::Constant(6), [&](Key leaf) { ++count[Grid<Dim>::level(leaf)]; });
-		// Of the box, which is a largest cell: its neighbours are halved once.
+		// Cells of the box, which is a largest cell: its neighbours are halved once.
 		const int inside = int(std::pow(4, Dim));
 		EXPECT_EQ(count[0], inside);
 		EXPECT_EQ(count[1], int((std::pow(3, Dim) - 1) * std::pow(2, Dim)));

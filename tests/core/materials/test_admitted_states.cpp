@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a law leaves of a state the next step must admit, whatever round-off does: internal variables, and that of
-// elastic answers nothing is left but the state before.
+// State after a law, which the next step must admit in spite of round-off: internal variables are admitted, and elastic
+// answers leave the state as it was before.
 #include "soil.hpp"
 
 namespace gimpm::soil::testAdmittedStates {

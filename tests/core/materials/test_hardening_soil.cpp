@@ -16,7 +16,7 @@ namespace {
 		return { E50, Eoed, Eur, nu, .5, .9, 1 - std::sin(35 * degree), pRef, 0, 35 * degree, dilation * degree, infinity };
 	}
 
-	/// Of drained triaxial compression under the reference pressure: q of an axial strain.
+	/// Deviator stress q at an axial strain in drained triaxial compression under the reference pressure.
 	double hyperbola(double strain, const Soil::Given& g)
 	{
 		const double sine = std::sin(g.friction), strength = 2 * sine / (1 - sine) * (g.reference + g.cohesion / std::tan(g.friction));
@@ -134,7 +134,7 @@ namespace {
 			soil.compress(1e-4, pRef);
 			(before < given.mostDilation ? fastest : after) = (soil.volume - before) / 1e-4;
 		}
-		// By the angle of triaxial compression: 2 sin(psi) / (1 - sin(psi)) of the axial strain.
+		// Dilation by the angle of triaxial compression: 2 sin(psi) / (1 - sin(psi)) of the axial strain.
 		const double sine = std::sin(10 * degree);
 		EXPECT_NEAR(fastest, 2 * sine / (1 - sine), 1e-3);
 		EXPECT_NEAR(after, 0, 1e-6);
@@ -258,7 +258,7 @@ namespace {
 		EXPECT_NEAR((soil.stress(0, 0) - soil.stress(1, 1) - before) / -2e-7, G0, 1e-3 * G0);
 	}
 
-	// With the axes of the strain those of the step.
+	// Axes of the strain are those of the step.
 	TEST(HardeningSoilSmall, TangentAgainstDifferences)
 	{
 		Random              random(6);
@@ -321,7 +321,7 @@ namespace {
 		Random random(12);
 		int    most = 0;
 		for (int k = 0; k < 400; ++k) {
-			auto soil = elasticSoil(1e6); // which never fails
+			auto soil = elasticSoil(1e6); // never fails
 			for (int i = 0; i < 3; ++i)
 				soil.apply(randomStrain(random, std::pow(10, random.in(-5, -3))));
 			const Mandel root = random.matrix<6, 6>(1), spring = G0 * root * root.transpose();

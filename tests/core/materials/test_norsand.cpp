@@ -142,7 +142,7 @@ namespace {
 		EXPECT_GT(partBelow(errors, 1e-6), .99);
 	}
 
-	// What it has opened by makes it looser, and needs not be closed before it bears again.
+	// Opening makes it looser, and need not be closed before it bears again.
 	TEST(NorSand, HasNoStressWhereItComesApart)
 	{
 		Element<NorSand> point(sand(0));

@@ -106,7 +106,7 @@ namespace {
 		}
 		for (const auto& errors : { ofElastic, ofFlow }) {
 			EXPECT_GT(errors.size(), 100u);
-			EXPECT_GT(partBelow(errors, 3 * tangentFloor), .9); // that part of the elastic stiffness is left on edges
+			EXPECT_GT(partBelow(errors, 3 * tangentFloor), .9); // tangentFloor: part of the elastic stiffness that is left on edges
 			EXPECT_GT(partBelow(errors, 1e-6), .95);            // the others have a corner of the law between the points of a difference
 		}
 	}

@@ -54,7 +54,7 @@ namespace {
 		void   apply(double g)
 		{
 			const double trial = stress + G * g, limit = yield / root2, excess = std::abs(trial - back) - limit;
-			// Of the tensor's component.
+			// Plastic flow of the tensor's component.
 			const double flow = excess > 0 ? std::copysign(excess / (2 * G + H), trial - back) : 0;
 			stress            = trial - 2 * G * flow;
 			back += H * flow;
@@ -96,7 +96,7 @@ namespace {
 		EXPECT_LT(flowing, 450);
 	}
 
-	// Of large strains, in whatever axes: what is seen turns with the observer, and a rotation by itself turns
+	// Large strains in any axes: stresses turn with the observer, and a rotation by itself turns
 	// stress and back stress.
 	TEST(TensorLaw, IsObjective)
 	{
@@ -218,7 +218,7 @@ namespace {
 			EXPECT_LT(Scene<2>(fBar, true).error(.05), 1e-7) << fBar;
 	}
 
-	/// Of a law that is principal, too.
+	/// Law that is principal, too.
 	class VonMisesBySixNumbers : public KinematicHardening {
 	public:
 		VonMisesBySixNumbers(double young, double poisson, double yieldStress) : KinematicHardening(young, poisson, yieldStress, 0) { }

@@ -30,7 +30,7 @@ namespace {
 		static Model<Dim> model(bool fBar, double ghost, bool isPeriodic = false)
 		{
 			Model<Dim> m;
-			if (isPeriodic) m.grid.period[Dim - 1] = Dim == 2 ? 5 : 6; // which domains reach beyond
+			if (isPeriodic) m.grid.period[Dim - 1] = Dim == 2 ? 5 : 6; // domains reach beyond
 			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, isPeriodic ? 0 : Dim - 1, 0) });
 			m.materials    = { { Hencky(1e6, 0.3), 2000 } };
 			m.fBar         = fBar;
@@ -90,7 +90,7 @@ namespace {
 		}
 	}
 
-	/// How points with these numbers move, and what a step makes of it.
+	/// Motion of points with these numbers, and its state after a step.
 	template <int Dim> struct Moved {
 		Motion<Dim>     motion {};
 		Rayleigh        rayleigh { 0.5, 0.01 };
@@ -120,7 +120,7 @@ namespace {
 		}
 	};
 
-	/// With points by themselves above the block, in cells that are loose; velocities, accelerations and works of a
+	/// Motion with single points above the block, in cells that are loose; velocities, accelerations and works of a
 	/// step, and what is left of the motion for the next one.
 	TYPED_TEST(DivisionOf, MotionIsThatOfAllPoints)
 	{
@@ -175,7 +175,7 @@ namespace {
 		return block;
 	}
 
-	/// How far a cell is from one whose points tell its velocities is known to all.
+	/// Distance of a cell from one whose points tell its velocities is known to all.
 	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
 	{
 		constexpr int Dim   = TypeParam::value;
@@ -256,7 +256,7 @@ namespace {
 		int number          = 0;
 		forColumns(all, [&](auto& column, Presence presence) {
 			++number;
-			// Which no point needs.
+			// Columns that no point needs.
 			if (presence == Presence::always || static_cast<void*>(&column) == &all.internals[0]) return;
 			column.resize(all.size());
 			for (auto& value : column)
@@ -319,7 +319,7 @@ namespace {
 		EXPECT_EQ(nodal, Eigen::VectorXd::Ones(6));
 	}
 
-	/// As processes compare them.
+	/// Checksums as processes compare them.
 	TEST(PointCloud, ChecksumIsThatOfEachColumn)
 	{
 		PointCloud<2> cloud;

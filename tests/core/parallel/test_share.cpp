@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What one of several processes assembles, without the others: its rows of forces and stiffness, and of the matrix that
+// Assembly of one of several processes, without the others: its rows of forces and stiffness, and of the matrix that
 // is solved.
 #include "core/solvers/node_rows.hpp"
 #include "core/stepping/step_system.hpp"

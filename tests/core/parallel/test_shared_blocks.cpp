@@ -97,7 +97,7 @@ namespace {
 		constexpr int         Dim                 = TypeParam::value;
 		auto                  springs             = TestFixture::springs(6, 0);
 		const Eigen::VectorXd b                   = Eigen::VectorXd::Ones(Dim * springs.K.nodes());
-		springs.K.at(springs.K.nodes() - 1, 0)[0] = -1; // of the last one
+		springs.K.at(springs.K.nodes() - 1, 0)[0] = -1; // block of the last one
 		forProcesses(springs, [&](const NodeShare& share, const SharedBlocks<Dim>& K) {
 			Eigen::VectorXd    all = b, x;
 			ConjugateGradients together(K, share.own(all), 1e-10);

@@ -92,7 +92,7 @@ namespace {
 		Cholesky        cholesky;
 		cholesky.analyse(K, matrix.order);
 		const auto last = matrix.order.numbers.back(), first = matrix.order.numbers.front(), second = matrix.order.numbers[matrix.order.first];
-		for (const int spoilt : { first, second, last }) { // of either half, and of the separator
+		for (const int spoilt : { first, second, last }) { // column in either half, and in the separator
 			double& diagonal = K.value[K.start[spoilt + 1] - 1];
 			ASSERT_EQ(K.row[K.start[spoilt + 1] - 1], spoilt);
 			const double before = std::exchange(diagonal, -diagonal);

@@ -112,7 +112,7 @@ namespace {
 
 	TEST(ConditionEstimate, GoesOnWhereEigenvaluesAreRoundOff)
 	{
-		// of the node at the free corner: gradients fall as a^3, so the stiffness as a^6
+		// Stiffness of the node at the free corner: gradients fall as a^3, so the stiffness as a^6.
 		const double kappa = conditionEstimate(columnOnSoftSoil(1e-6, 0, 1));
 		EXPECT_GT(kappa, 1e30);
 		EXPECT_NEAR(conditionEstimate(columnOnSoftSoil(1e-7, 0, 1)) / kappa, 1e6, 1e4);

@@ -141,7 +141,7 @@ namespace {
 		LinearSolver solver;
 		for (const double unit : { 1e-150, 1e-30, 1e30, 1e150 })
 			expectSolves(solver, sparse(unit * random(40, 0.3, 4)), 1e-10);
-		// of rows and columns: nodes that are hardly touched, whose displacements may be large for that
+		// Scale of rows and columns: nodes that are hardly touched, whose displacements may be large for that.
 		const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(40, [](Eigen::Index i) { return std::pow(10., -double(i % 12)); });
 		const Eigen::MatrixXd m     = scale.asDiagonal() * dominant(40, 0.2, 4) * scale.asDiagonal();
 		const Eigen::VectorXd x     = Random(3).vector(40);

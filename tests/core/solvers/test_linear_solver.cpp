@@ -226,7 +226,7 @@ namespace {
 		}
 	}
 
-	// Of conjugate gradients: what they solve and what they leave to the direct solver.
+	// Status of conjugate gradients: problems that they solve, and those that they leave to the direct solver.
 	Status iteratively(LinearSolver& solver, const LinearProblem& K, double tolerance, double* residual = nullptr)
 	{
 		const Eigen::VectorXd b = Random(7).vector(K.size());

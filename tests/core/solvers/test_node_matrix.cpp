@@ -29,7 +29,7 @@ namespace {
 				for (int code = 0; code < NodeMatrix<Dim>::codes; ++code)
 					if (const int b = K.neighbour(a, code); b >= 0 && (b == a || random.in(0, 1) < 0.4)) f(a, b, code);
 		}
-		/// As a term does that knows of nothing else.
+		/// Adds a block as a term does that knows of nothing else.
 		void addSymmetric(int a, int b, int code)
 		{
 			Mat<Dim> block = random.matrix<Dim, Dim>();
@@ -125,7 +125,7 @@ namespace {
 		EXPECT_EQ(both.start, b.general().start);
 		EXPECT_EQ(both.row, b.general().row);
 		EXPECT_EQ(both.value, b.general().value);
-		SymmetricCsc upper; // of the matrix in the opposite order
+		SymmetricCsc upper; // upper triangle of the matrix in the opposite order
 		for (int c = a.size(); c >= 0; --c)
 			upper.start.push_back(int(a.stored().row.size()) - a.stored().start[c]);
 		upper.value.assign(a.stored().value.rbegin(), a.stored().value.rend());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is made of a matrix because it belongs to nodes: products by blocks, conjugate gradients without compressing it,
+// Operations on a matrix that belongs to nodes: products by blocks, conjugate gradients without compressing it,
 // the size of its factor.
 #include "core/solvers/block_matrix.hpp"
 #include "core/solvers/dissection.hpp"

@@ -146,7 +146,7 @@ namespace {
 		}
 	}
 
-	/// What cannot be held back any longer grows without end, what is estimated to be stable does not.
+	/// Steps that are too long grow without end, those estimated to be stable do not.
 	TEST(Explicit, LongerStepsAreUnstable)
 	{
 		for (const double ghostMass : { lumped, consistent }) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the ghost stabilisation carries in a static step, and points that nothing restrains.
+// Work of the ghost stabilisation in a static step, and points that nothing restrains.
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 
@@ -38,7 +38,7 @@ namespace {
 		const auto load   = scene.load(0, 1);
 		const auto report = scene.step(0, 1);
 		ASSERT_TRUE(report.converged());
-		// by hand: at free nodes stress and stabilisation bear the weight, held ones do not move
+		// Sums by hand: at free nodes stress and stabilisation bear the weight, constrained ones do not move.
 		const auto& grid  = scene.model.grid;
 		const auto  basis = cloudBasis<2>(begin, grid, Basis::gimp, scene.model.boundary);
 		auto        faces = ghostFaces<2>(basis.cells, boundaryCells<2>(basis.cells, scene.model.boundary), scene.model.boundary);
@@ -121,9 +121,9 @@ namespace {
 			EXPECT_LT((alone.cloud.position[p] - beside.cloud.position[p]).norm(), 1e-9) << p;
 	}
 
-	/// What hangs on the rest by a corner of a cell turns about it as it likes, so that no equilibrium tells where
-	/// it goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that
-	/// one node.
+	/// Block that is connected by a corner of a cell turns about it freely, so that no equilibrium tells where
+	/// it goes. It is constrained, and that force, with the floor's, bears the weight of all. The rest feels it by
+	/// that one node.
 	TEST(LoosePoints, HangByACorner)
 	{
 		Block alone(elastic), scene(elastic);
@@ -140,7 +140,7 @@ namespace {
 		EXPECT_LT((alone.cloud.position[0] - scene.cloud.position[0]).norm(), 1e-4) << "far from the corner";
 	}
 
-	/// By a face of a cell the stabilisation holds it, as it always has.
+	/// Stabilisation holds a block that is connected by a face of a cell.
 	TEST(LoosePoints, AreNotThoseBesideAFace)
 	{
 		Block scene(elastic);

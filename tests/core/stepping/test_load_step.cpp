@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a load step does to the points: all of it or nothing.
+// Update of the points by a load step: all of it or nothing.
 #include "scenes.hpp"
 #include <Eigen/LU>
 #include <cstring>

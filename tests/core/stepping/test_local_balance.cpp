@@ -10,7 +10,7 @@ namespace {
 		Model<2>                model;
 		PointCloud<2>           cloud;
 		std::vector<HeldBox<2>> boxes;
-		std::vector<double>     weight; ///< of each column [N]
+		std::vector<double>     weight; ///< weight of each column [N]
 		Load<2>                 load;
 		LinearSolver            solver;
 
@@ -48,7 +48,7 @@ namespace {
 			}
 			return report;
 		}
-		/// Of the column added as number `column`.
+		/// Reaction of the column added as number `column`.
 		double reaction(const StepReport& report, int column) const { return report.reactions[3 * column + 2][1]; }
 	};
 
@@ -100,7 +100,7 @@ namespace {
 		Columns    c = scene(), precise = scene();
 		const auto report = c.run(1e-6);
 		precise.run(1e-9);
-		// what reaches behind the walls that move is held there, so that all boxes carry the weight
+		// Points that reach behind the moving walls are constrained there, so that all boxes carry the weight.
 		double reaction = 0;
 		for (const auto& r : report.reactions)
 			reaction += r[1];

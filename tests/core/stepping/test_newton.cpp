@@ -29,7 +29,7 @@ namespace {
 			model.materials          = { { law, 1e3 } };
 			model.boundary           = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz") });
 			model.newton.tolerance   = 1e-13;
-			model.newton.reuseFactor = false; // whose convergence is linear
+			model.newton.reuseFactor = false; // it converges linearly
 			load.gravity             = -10 * Vec<Dim>::Unit(1);
 		}
 		StepReport step() { return loadStep(cloud, model, load, solver); }

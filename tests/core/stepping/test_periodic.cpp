@@ -164,7 +164,7 @@ namespace {
 			Model<Dim> model;
 			model.grid             = gridOf<Dim>(3, 0.5);
 			model.materials        = { { Hencky(1e9, 0.3), 2e3 } };
-			model.ghost.factor     = 0; // which lets the stress jump beside the surface
+			model.ghost.factor     = 0; // it lets the stress jump beside the surface
 			model.newton.tolerance = 1e-12;
 			model.boundary         = Boundary<Dim>({ base<Dim>(model.grid) });
 			auto cloud             = block<Dim>(model.grid, cellsOf<Dim>(3, 8, 3), 2);

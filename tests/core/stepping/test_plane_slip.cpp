@@ -129,7 +129,7 @@ namespace {
 		EXPECT_FALSE(rock.worst({ strength, std::nullopt }));
 		EXPECT_NEAR(base.worst({ strength, std::nullopt })->excess, open.worst({ strength })->excess, 1e-9);
 		EXPECT_FALSE(cave.worst({ strength }));
-		// Of two kinds of sand the larger strength counts.
+		// The larger strength of two kinds of sand counts.
 		EXPECT_NEAR(rock.worst({ strength, Strength { 2e3, 0.5 } })->excess, open.worst({ Strength { 2e3, 0.6 } })->excess, 1e-9);
 	}
 

@@ -64,7 +64,7 @@ namespace {
 		const Runs runs(40);
 		EXPECT_EQ(runs.starts, 39);
 		EXPECT_LT(runs.solves[1], 0.55 * runs.solves[0]) << runs.solves[1] << " instead of " << runs.solves[0];
-		EXPECT_LT(runs.difference(), 1e-4); // of displacements of 2.6 m: forty steps of a residual up to 1e-6
+		EXPECT_LT(runs.difference(), 1e-4); // relative to displacements of 2.6 m: forty steps of a residual up to 1e-6
 	}
 
 	TEST(Predictor, IsNotFollowedIntoCoarseStepsThatFail)
@@ -120,7 +120,7 @@ namespace {
 			EXPECT_GT(b.iterations, 0);
 		}
 		for (std::size_t p = 0; p < blocks.zero.size(); ++p)
-			EXPECT_LT((blocks.zero.stress[p].c - blocks.predicted.stress[p].c).norm(), 1) << p; // of stresses of 20 kPa
+			EXPECT_LT((blocks.zero.stress[p].c - blocks.predicted.stress[p].c).norm(), 1) << p; // relative to stresses of 20 kPa
 	}
 
 } // namespace

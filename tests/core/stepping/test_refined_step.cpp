@@ -106,7 +106,7 @@ namespace {
 		}
 	}
 
-	/// Of a block that yields around its small cells.
+	/// Block that yields around its small cells.
 	template <int Dim> struct Pressed {
 		PointCloud<Dim> cloud;
 		StepReport      report;

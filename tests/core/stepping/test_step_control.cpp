@@ -153,7 +153,7 @@ namespace {
 		}
 	}
 
-	// What is done is kept: a run that is interrupted goes on from there.
+	// Steps that are done are kept: a run that is interrupted goes on from there.
 	TEST(StepControl, anInterruptionLeavesTheRest)
 	{
 		StepControl control(1, 1. / 1024, maxIterations);

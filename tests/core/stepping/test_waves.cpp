@@ -171,7 +171,7 @@ namespace {
 			}
 	}
 
-	/// Of ground on a rigid base that moves along y with the velocity history(time).
+	/// Shakes ground on a rigid base that moves along y with the velocity history(time).
 	template <class F> bool shake(Ground<2>& ground, F&& history, double duration)
 	{
 		const int    parts = 20; // displacement by Simpson's rule
@@ -213,7 +213,7 @@ namespace {
 	/// Kelvin and Voigt's: G (1 + i omega beta); amplification 1 / |cos k H|.
 	TEST(Waves, AmplificationWithStiffnessProportionalDamping)
 	{
-		for (const double ratio : { 0.6, 1., 1.7 }) { // of the frequency and c_s / (4 H)
+		for (const double ratio : { 0.6, 1., 1.7 }) { // ratio of the frequency and c_s / (4 H)
 			Ground<2>    ground(10);
 			const double first = 2 * M_PI * ground.cs / 40, omega = ratio * first, beta = 2 * 0.1 / first, T = 2 * M_PI / omega / 60;
 			ground.holdBase();

@@ -147,7 +147,8 @@ namespace {
 		EXPECT_NEAR(4 - beam.places.front()[0], 4 * (1 + pull / EA) / (1 + N / EA), 1e-9);
 	}
 
-	/// With a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8 EI.
+	/// Deflection with a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8
+	/// EI.
 	TEST(Beams, HingesTakeNoMoment)
 	{
 		constexpr double L = 2, EI = 2e6, weight = 100;
@@ -207,7 +208,7 @@ namespace {
 		}
 	}
 
-	/// Of a plate of this thickness, with E = 1e9 Pa.
+	/// Section of a plate of this thickness, with E = 1e9 Pa.
 	BeamSection plateOf(double thickness, double poisson)
 	{
 		const double C = 1e9 * thickness / (1 - poisson * poisson);
@@ -323,7 +324,7 @@ namespace {
 		}
 	}
 
-	/// With a hinge on a circle the parts of a plate turn by themselves: its middle is simply supported on the
+	/// Plate with a hinge on a circle, whose parts turn by themselves: its middle is simply supported on the
 	/// ring.
 	TEST(Shells, HingesTakeNoMoment)
 	{
@@ -401,7 +402,7 @@ namespace {
 			bar.begin(divided<Dim>({ from, to }, lengthOfPieces * model.grid.cellSize));
 			return bar;
 		}
-		/// Of the whole tangent along a direction.
+		/// Error of the whole tangent along a direction.
 		double tangentError()
 		{
 			const StepSystem<Dim> system(cloud, model, {}, report);
@@ -468,7 +469,7 @@ namespace {
 			beam.before.weight    = { 0, -500 };
 			beam.before.headForce = { 0, -60 };
 			beam.begin(divided<2>({ { 0.3, 1.3 }, { 2.7, 1.3 } }, 0.25));
-			const Vec<2> force = atBeginning(other); // by which the beam resists: its loads, turned round
+			const Vec<2> force = atBeginning(other); // force by which the beam resists: its loads, turned round
 			EXPECT_NEAR(force[0], 0, 1e-6);
 			EXPECT_NEAR(force[1], 500 * 2.4 + 60, 1e-5);
 		}
@@ -625,7 +626,7 @@ namespace {
 			const Vec<2> before  = moving.momentum();
 			double       pressed = 0;
 			for (int step = 0; step < 10; ++step) {
-				moving.model.grid.parting.reset(), moving.cloud.layer.clear(); // as for each step of an engine
+				moving.model.grid.parting.reset(), moving.cloud.layer.clear(); // same as for each step of an engine
 				partSoil({ &*structure.beam }, moving.cloud, moving.model.grid);
 				ASSERT_EQ(structure.beam->layer, 1);
 				const StepReport report = moving.step(2e-3);

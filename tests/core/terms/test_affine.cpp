@@ -110,7 +110,7 @@ namespace {
 			Mat3       strain = assemble(Vec3(0.2, -0.3, 0.1), random.rotation<Dim>()).full();
 			const Mat3 mean   = strain.trace() / 3 * Mat3::Identity();
 			strain            = mean + (strain - mean) * (yield / (2 * G) / (strain - mean).norm());
-			const Mat<Dim> V  = Mat<Dim>::Identity() + 0.2 * Mat<Dim>::Ones(); // where the block came from
+			const Mat<Dim> V  = Mat<Dim>::Identity() + 0.2 * Mat<Dim>::Ones(); // deformation of the block before
 			for (std::size_t p = 0; p < block.cloud.size(); ++p) {
 				block.cloud.material[p]      = i % 2;
 				block.cloud.elasticStrain[p] = SymTensor<Dim>::from(strain);

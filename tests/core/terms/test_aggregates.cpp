@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which ghost faces tie ill-filled cells to well-filled ones.
+// Ghost faces that tie ill-filled cells to well-filled ones.
 #include "core/terms/aggregates.hpp"
 #include "scenes.hpp"
 #include <set>

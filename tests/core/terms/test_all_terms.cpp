@@ -81,7 +81,7 @@ namespace {
 			boxes.push_back(nothing);
 			model.boundary = Boundary<Dim>(boxes);
 		}
-		/// Of the tangent at random displacements. All terms act: without each of them it differs.
+		/// Error of the tangent at random displacements. All terms act: without each of them it differs.
 		double error(std::size_t terms)
 		{
 			const StepSystem<Dim> system(cloud, model, {}, report);
@@ -98,7 +98,7 @@ namespace {
 		}
 
 	private:
-		/// Of the free degrees of freedom, which nodes tied to others follow.
+		/// Free degrees of freedom, which nodes tied to others follow.
 		static Eigen::VectorXd free(const StepSystem<Dim>& system, const Eigen::VectorXd& nodal)
 		{
 			Eigen::VectorXd x(system.dofs.count);
@@ -133,7 +133,7 @@ namespace {
 	template <class T> using TangentOfAll = InBothDimensions<T>;
 	TYPED_TEST_SUITE(TangentOfAll, BothDimensions, DimensionName);
 
-	constexpr double roundOff = 1e-6; // of forces of 1e4 N by steps of 1e-8 m
+	constexpr double roundOff = 1e-6; // relative to forces of 1e4 N by steps of 1e-8 m
 
 	TYPED_TEST(TangentOfAll, IsTheDerivative)
 	{

@@ -137,7 +137,7 @@ namespace {
 		Eigen::VectorXd  force;
 		system.prepare(K);
 		system.evaluate(scene.displacements(system), force, &K);
-		// what lies above the diagonal is stored, so that only the blocks on it can go wrong
+		// Blocks above the diagonal are stored, so that only those on it can go wrong.
 		for (int n = 0; n < K.nodes(); ++n) {
 			const Eigen::Map<const Mat<Dim>> block(K.at(n, 0));
 			EXPECT_LE((block - block.transpose()).norm(), 1e-14 * block.norm());

@@ -104,7 +104,7 @@ namespace {
 			EXPECT_LT((cloud.stress[p].full() - Mat3(stress.asDiagonal())).norm(), 1e-10 * stress.norm()) << "point " << p << ", seed " << seed;
 			EXPECT_NEAR(cloud.hoopStretch[p], std::exp(across), 1e-12);
 		}
-		// what the plates carry is the stress on the circle
+		// Load of the plates is the stress on the circle.
 		const double area = full / 2 * std::pow(radius * std::exp(across), 2);
 		EXPECT_NEAR(report.reactions[1][1], stress[1] * area, 1e-9 * std::abs(stress[1] * area));
 	}

@@ -118,14 +118,14 @@ namespace {
 			}
 	}
 
-	/// That it is symmetric before it is exact, and close to it where places stick, is what makes it worth while.
+	/// Symmetry of the tangent before it is exact, and near it at sticking contact points, makes it worth while.
 	TYPED_TEST(BodyContactTest, TheDerivativeIsThatOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const double friction : { 0., 0.1, 5. }) {
 			Pressed<Dim> pressed(0.6, 2, 50, friction);
 			ASSERT_TRUE(pressed.step(0.5).converged());
-			pressed.contacts.meetings[0].slipping = 0; // with many the first derivatives are exact
+			pressed.contacts.meetings[0].slipping = 0; // the first derivatives are exact with many of them
 			StepReport            report;
 			const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
 			NodeMatrix<Dim>       K;

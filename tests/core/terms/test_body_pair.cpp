@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a place on one body and a piece of the surface of another do to each other.
+// Contact force between a contact point on one body and a facet of another.
 #include "core/terms/bodies/body_pair.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ namespace {
 		EXPECT_TRUE(this->at(this->now, 10, .01).slips) << "at the cap";
 	}
 
-	/// Of a pressure that is kept from the last step, with surfaces cut anew: it acts at any gap below the one at
+	/// Pressure that is kept from the last step, with surfaces cut anew, acts at any gap below the one at
 	/// which it began, on either side of the piece, until that gap is reached.
 	TYPED_TEST(BodyPairTest, AKeptPressureActsFromTheGapAtWhichItBegan)
 	{

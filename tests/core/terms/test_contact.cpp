@@ -163,11 +163,11 @@ namespace {
 			EXPECT_NEAR((block.contacts.loads[0].force[1] + block.contacts.loads[1].force[1]) / (-10 * massOf(block)), 1, 1e-8);
 			height[middle > 0.55] = block.cloud.position[0][1];
 		}
-		const double pressedIn = 1.5 * 1e4 * 0.5 / (100 * young); // by the weight; places of the sheets are not at the same places of cells
+		const double pressedIn = 1.5 * 1e4 * 0.5 / (100 * young); // penetration by the weight; contact points of the sheets differ in their cells
 		EXPECT_NEAR(height[0], height[1], 0.03 * pressedIn);
 	}
 
-	/// What overlaps when it comes into sight fits, whether the body has just come or not. A body around the middle
+	/// Overlap at first sight fits, whether the body has just come or not. A body around the centre
 	/// of a point is misplaced when it comes.
 	TEST(Contact, WishedInPlace)
 	{

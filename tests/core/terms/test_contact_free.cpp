@@ -32,8 +32,8 @@ namespace {
 			if (isRing) base.push_back(wallBelow<Dim>(this->model.grid, 0, 0));
 			this->model.boundary = Boundary<Dim>(base);
 		}
-		/// Of the whole tangent along a direction, from differences. What has no inertia rests on all of the
-		/// soil's surface.
+		/// Error of the whole tangent along a direction, from differences. A body without inertia rests on all
+		/// of the soil's surface.
 		double tangentError()
 		{
 			const StepSystem<Dim> system(this->cloud, this->model, Load<Dim>(), this->report);
@@ -131,7 +131,7 @@ namespace {
 			}
 	}
 
-	/// What a body with nodes carries along moves as these do: a rigid motion of them is that of the body.
+	/// Load on a body with nodes moves as these do: a rigid motion of them is that of the body.
 	TEST(Nodes, CarryAsARigidBodyDoes)
 	{
 		for (const int nodes : { 2, 3 }) {

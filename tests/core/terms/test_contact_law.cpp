@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How far a place is from a rigid body, and what that does to it, with derivatives against finite differences.
+// Gap between a contact point and a rigid body, and the contact force, with derivatives against finite differences.
 #include "core/terms/contact/contact_law.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
@@ -30,7 +30,7 @@ namespace {
 		return body;
 	}
 
-	/// Of f: place -> vector.
+	/// Derivative of f: place -> vector.
 	template <int Dim, class F> Mat<Dim> slopeOf(F&& f, const Vec<Dim>& x)
 	{
 		constexpr double step = 1e-6;
@@ -98,7 +98,7 @@ namespace {
 		}
 	}
 
-	/// By as much as its surroundings are pressed with; not farther off than it reaches.
+	/// Pressure as large as that of its surroundings; not farther off than it reaches.
 	template <int Dim> void testAround()
 	{
 		const auto body = bodyOf<Dim>(RigidKind::ball);
@@ -144,7 +144,7 @@ namespace {
 		EXPECT_NEAR(at(0.5e-9)->slope(0, 0), -50, 0.1);
 	}
 
-	/// Of all that there is of a shape only what belongs to its kind counts.
+	/// Only members of a shape that belong to its kind count.
 	TEST(ContactLaw, MotionOfABodyIsThatOfItsFarthestPlace)
 	{
 		constexpr double nothing = std::numeric_limits<double>::quiet_NaN();

@@ -77,7 +77,7 @@ namespace {
 					scene.step();
 				}
 				const double strain = std::log(1 - 0.15 / height),
-				             stress = young * strain / (1 - 0.15 / height); // of a plate that does not give way
+				             stress = young * strain / (1 - 0.15 / height); // stress of a rigid plate
 				double least = 0, most = stress, off = 0;
 				for (const auto& of : scene.cloud.stress) {
 					const Mat<Dim> s = of.inPlane();

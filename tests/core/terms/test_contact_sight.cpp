@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What soil a place on a body sees: how far it is, and how much of it.
+// Soil in front of a contact point on a body: how far it is, and how much of it.
 #include "core/terms/contact/contact_sight.hpp"
 #include "scenes.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is small beside the cells, on soil that goes on beside it: that it presses by wider functions, that derivative,
-// balance and memory are those of these, and that it does not where soil ends.
+// Bodies that are small beside the cells, on soil that goes on beside them: wider shape functions, with derivative,
+// balance and memory of these, and none where soil ends.
 #include "core/terms/contact/contact_coupling.hpp"
 #include "derivatives.hpp"
 #include "touched_soil.hpp"
@@ -14,7 +14,7 @@ namespace {
 	/// Soil of eight by two (by eight) cells, but for the first ones along x that are cut off, and on its top a
 	/// ball of radius .8 h or a block 2 h wide, the first places of which are in the lower halves of cells.
 	template <int Dim> struct Small : TouchedSoil<Dim> {
-		const int first; ///< of these cells
+		const int first; ///< index of the first of these cells
 
 		Small(RigidKind kind, double friction, int cutOff = 0) : TouchedSoil<Dim>(0, 1e-11), first(kind == RigidKind::ball ? 4 : 3)
 		{
@@ -56,7 +56,7 @@ namespace {
 			EXPECT_FALSE(this->contacts.acting->add(d, { f }));
 			return f;
 		}
-		/// Of the nodes that get a force where no soil moves, along an axis; 99: none gets one.
+		/// Lowest node along an axis that gets a force where no soil moves; 99: none gets one.
 		int lowestNode(int axis)
 		{
 			const auto            step   = system();
@@ -87,7 +87,7 @@ namespace {
 			}
 	}
 
-	/// Of all of the step, along a direction in which all nodes move: of a free body it joins them.
+	/// Tangent of all of the step, along a direction in which all nodes move: a free body joins them.
 	TYPED_TEST(SmallOf, TangentOfFreeOnesIsTheDerivative)
 	{
 		for (const RigidKind kind : kinds)
@@ -136,14 +136,15 @@ namespace {
 			}
 	}
 
-	/// Where nothing moves any more, a step begins with the nodal forces with which that before it ended.
+	/// Nodal forces at the beginning of a step are those at the end of the step before, where nothing moves any
+	/// more.
 	TYPED_TEST(SmallOf, ForcesOfBeforeAreThoseThatWere)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const bool isFree : { false, true })
 			for (const RigidKind kind : kinds) {
 				Small<Dim> scene(kind, 0.3);
-				scene.contacts.energy = 0; // of steps in time, which ask for them
+				scene.contacts.energy = 0; // a time step, which asks for the forces of before
 				(isFree ? scene.letGo(0) : scene.press()).expectWide();
 				Eigen::VectorXd f, before;
 				for (int step = 0; step < 5; ++step) {

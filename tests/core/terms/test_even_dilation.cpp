@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is added to the motion of points so that all volumes in a cell change alike.
+// Divergence correction: added motion of points so that all volumes in a cell change alike.
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/points/even_dilation.hpp"
@@ -52,7 +52,7 @@ namespace {
 			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { by[p] = u.displacement; });
 			even = evenDilations(cloud, system.basis, system.points, model.grid, d);
 		}
-		/// Of the whole field in point p, by those a step beside it on both sides, which follow it.
+		/// Divergence of the whole field in point p, from differences over a step on both sides.
 		double dilation(int p) const
 		{
 			double sum = isRing() ? (by[p] + even[p].shift)[0] / cloud.position[p][0] : 0;
@@ -148,7 +148,7 @@ namespace {
 		EXPECT_LT((scene.even[0].growth - growth).norm(), 1e-7);
 	}
 
-	/// As the law sees it, also after large displacements.
+	/// Volumes as the law sees them, also after large displacements.
 	TYPED_TEST(EvenDilationOf, PointsOfACellChangeTheirVolumesAlike)
 	{
 		constexpr int Dim = TypeParam::value;

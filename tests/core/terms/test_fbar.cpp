@@ -47,7 +47,7 @@ namespace {
 		return force;
 	}
 
-	/// Of the basis function of a node given by its position along each axis.
+	/// Gradient of the basis function of a node given by its position along each axis.
 	template <int Dim> Vec<Dim> gradient(const PointBasis<Dim>& axes, const Index<Dim>& n)
 	{
 		Vec<Dim> G = Vec<Dim>::Ones();

@@ -95,7 +95,7 @@ namespace {
 			push(top, { 0, -load });
 		}
 		double settlement() const { return height - water.drains[0].surface.vertices[0][1]; }
-		double coefficient() const { return water.pores[0].conductivity * young; } // of consolidation
+		double coefficient() const { return water.pores[0].conductivity * young; } // coefficient of consolidation
 	};
 
 	double terzaghi(double T)
@@ -108,8 +108,8 @@ namespace {
 		return degree;
 	}
 
-	/// That of forces is symmetric with the sign of the pressures' rows where nothing flows and water keeps its
-	/// volume.
+	/// Tangent of the forces, which is symmetric with the sign of the pressures' rows where nothing flows and water
+	/// keeps its volume.
 	template <int Dim> void expectTangent(Soil<Dim>& body, bool flows)
 	{
 		body.water.modulus  = flows ? 2e6 : infinity;
@@ -280,10 +280,10 @@ namespace {
 			const double next   = k * k / double(steps * steps);
 			const auto   report = column.step((next - T) / column.coefficient());
 			ASSERT_TRUE(report.converged()) << report.cause;
-			EXPECT_LE(report.iterations, 6); // as with all derivatives from the start
+			EXPECT_LE(report.iterations, 6); // same as with all derivatives from the start
 			for (const auto& [time, settlement] : expected)
 				if (T < time && next >= time - 1e-9) {
-					const double part  = (time - T) / (next - T); // of this step
+					const double part  = (time - T) / (next - T); // part of this step
 					const double found = column.settlement() - (1 - part) * (column.settlement() - before);
 					EXPECT_NEAR(found / settlement, 1, 0.01) << time;
 				}
@@ -330,7 +330,7 @@ namespace {
 	{
 		for (const double part : { 1e-6, 1e-2, 0.1, 1. })
 			for (const double stabilisation : { 0., 1. }) {
-				Column column(20, 0, 1e-3 * Column::young, 1e7); // as if it had no skin
+				Column column(20, 0, 1e-3 * Column::young, 1e7); // same as without a skin
 				column.water.stabilisation = stabilisation;
 				ASSERT_TRUE(column.step(part * column.h * column.h / column.coefficient()).converged());
 				double most = 0;

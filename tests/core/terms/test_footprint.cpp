@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which nodes a place of contact presses on: what functions of the cell and wider ones have in common, and where soil
+// Nodes that a contact point presses on: common properties of functions of the cell and wider ones, and where soil
 // ends.
 #include "core/stepping/step_system.hpp"
 #include "core/terms/contact/footprint.hpp"

@@ -92,7 +92,7 @@ namespace {
 				found.push_back(each);
 		}
 		omp_set_num_threads(threads);
-		Eigen::VectorXd weight(all.count); // of momenta, m^-1/2
+		Eigen::VectorXd weight(all.count); // weight of momenta, m^-1/2
 		matrix.forEntries([&](int a, int b, int, double m) {
 			if (a == b) weight.segment<Dim>(Dim * a).setConstant(1 / std::sqrt(m));
 		});
@@ -291,7 +291,7 @@ namespace {
 		}
 	}
 
-	/// With a step that takes forever, inertia is nothing beside the rest.
+	/// Inertia is nothing beside the rest in a step that takes forever.
 	TYPED_TEST(InertiaTerm, LongStepsAreStatic)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -388,7 +388,7 @@ namespace {
 		EXPECT_NEAR((body.energy() + taken) / before, 1, 1e-3);
 	}
 
-	/// What a boundary carries along gets its speed, all of it.
+	/// Body that a boundary carries along gets its speed, all of it.
 	TEST(Inertia, ABoundaryThatStartsAtOnceCarriesTheBodyAlong)
 	{
 		Moving<2> body(1, Hencky(1e8, 0), 1000, TimeScheme::generalisedAlpha(0));

@@ -88,7 +88,7 @@ namespace {
 			}
 	}
 
-	// With F-bar, forces are in balance because the centres are those of the matter in the cells.
+	// Balance of forces with F-bar: the centres are those of the matter in the cells.
 	TYPED_TEST(PatchTest, UniaxialStressWithFBar)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -9,11 +9,11 @@
 namespace gimpm::testTerms {
 namespace {
 
-	/// What the springs at nodes of the grid remember from step to step: how far each is stretched.
+	/// Memory of the springs at nodes of the grid from step to step: how far each is stretched.
 	template <int Dim> struct Springs {
 		/// Force on the node over its displacement; not symmetric if it also pushes sideways one way [N/m].
 		Mat<Dim>                stiffness;
-		std::map<Key, Vec<Dim>> elongation; ///< by node [m]
+		std::map<Key, Vec<Dim>> elongation; ///< elongation by node [m]
 
 		Vec<Dim> total() const
 		{
@@ -228,7 +228,7 @@ namespace {
 			raft.model.materials           = { { Hencky(1e5, 0.3), 2000 } };
 			raft.springs.stiffness(0, 1)   = 0.3 * raft.stiffness;
 			raft.springs.stiffness(1, 0)   = -0.1 * raft.stiffness;
-			raft.model.newton.reuseFactor  = false; // whose convergence is linear
+			raft.model.newton.reuseFactor  = false; // it converges linearly
 			raft.model.newton.linearSolver = method;
 			raft.model.newton.tolerance    = 1e-11;
 			const auto report              = raft.step(1);

@@ -163,7 +163,7 @@ namespace {
 		}
 	}
 
-	/// With sides that are the same nodes, where the line begins and ends does not matter.
+	/// Beginning and end of the line do not matter with sides that are the same nodes.
 	TYPED_TEST(TractionOf, ForcesAsTheStepBegins)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -267,7 +267,7 @@ namespace {
 		for (int a = 0; a < Dim; ++a)
 			for (const double sign : { -1, 1 }) {
 				const Vec<Dim> side = sign * Vec<Dim>::Unit(a), outside = middle + side;
-				EXPECT_TRUE(surface.isBetween(middle, outside)); // where pieces meet, too
+				EXPECT_TRUE(surface.isBetween(middle, outside)); // also at joints of pieces
 				EXPECT_TRUE(surface.isBetween(outside, Vec<Dim>(middle + 0.1 * Vec<Dim>::LinSpaced(1, 2))));
 				EXPECT_FALSE(surface.isBetween(middle, Vec<Dim>(middle + 0.49 * side)));
 				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(middle + 0.51 * side)));

@@ -76,7 +76,7 @@ namespace {
 		PointCloud<Dim> cloud;
 		LinearSolver    solver;
 
-		/// Of 3 m; 10 kPa a metre of it
+		/// Block of 3 m with 10 kPa a metre of it.
 		Block(int cells, double young)
 		{
 			model.grid.cellSize    = 3. / cells;

@@ -225,7 +225,7 @@ namespace {
 				const auto report = scene.step();
 				ASSERT_TRUE(report.converged()) << report.cause;
 				EXPECT_NEAR(report.reactions[boxes.size()][1], lid.reaction[1], 0);
-				// As exact as the forces of the penalty at first.
+				// Reaction is as exact as the forces of the penalty at first.
 				EXPECT_NEAR(report.reactions[2][1] / -lid.reaction[1], 1, 1e-7);
 			}
 			EXPECT_NEAR(lid.surface.vertices[0][1], 1.35, 1e-12);

@@ -51,7 +51,7 @@ namespace {
 		StepReport      step(double gravity) { return loadStep<Dim>(cloud, model, { -gravity * Vec<Dim>::Unit(1) }, solver); }
 		StepSystem<Dim> system() { return { cloud, model, Load<Dim>(), report }; }
 
-		/// Of the water on the body.
+		/// Resultant of the water on the body.
 		Vec<Dim> resultant() { return resultantBefore<Dim>(system()); }
 	};
 
@@ -196,7 +196,7 @@ namespace {
 		EXPECT_GT((wet.cloud.position.back() - block<Dim>(wet.model.grid, Index<Dim>::Constant(3), 2).position.back()).norm(), 0.005);
 		for (std::size_t p = 0; p < wet.cloud.size(); ++p)
 			EXPECT_LT((wet.cloud.position[p] - light.cloud.position[p]).norm(), 1e-11);
-		// what the floor bears of the water: its pressure there; the sides: half of it
+		// Load of the floor: the pressure of the water there; of the sides: half of it.
 		double floor = 0, side = 0;
 		for (const auto& [node, force] : wet.water.onWalls) {
 			floor += force[1];

@@ -94,7 +94,7 @@ namespace {
 		}
 	}
 
-	/// Of domains that lie in one cell each, where the formula of the forces is exact.
+	/// Domains lie in one cell each, where the formula of the forces is exact.
 	TYPED_TEST(WithinCells, ForcesStayAndPointsOfACellAreOne)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -107,7 +107,7 @@ namespace {
 			const auto     inCell = Vec<Dim>::NullaryExpr([&]() { return scene.random.in(0.3, 0.7); });
 			cloud.position[p]     = scene.model.grid.origin + h * (cell + Vec<Dim>(inCell));
 			cloud.halfSize[p]     = Vec<Dim>::Constant(0.1 * h);
-			scene.setMeanStrain(int(p), scene.random.in(-1e-9, 1e-9)); // of which products do not count
+			scene.setMeanStrain(int(p), scene.random.in(-1e-9, 1e-9)); // so small that their products do not count
 		}
 		Scene<Dim> after     = scene;
 		after.cloud          = scene.relaxed(1);
@@ -125,7 +125,7 @@ namespace {
 		EXPECT_GT(pairs, 5);
 	}
 
-	/// What has been taken out is not there any more, and what rests keeps all.
+	/// Second filter changes nothing more, and a body at rest keeps all.
 	TYPED_TEST(WithinCells, TwiceIsOnceAndAtRestNothing)
 	{
 		constexpr int Dim = TypeParam::value;

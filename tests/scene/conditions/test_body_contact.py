@@ -44,7 +44,7 @@ def slides(contact, steps, each=1):
 
 
 def test_each_interface_of_a_stack_bears_the_weight_above(yade):
-	"""Of three blocks, with faces anywhere in the cells and moduli of 1 to 1000, on smooth walls; stresses are those of a column."""
+	"""Stack of three blocks, with faces anywhere in the cells and moduli of 1 to 1000, on smooth walls; stresses are those of a column."""
 	for moduli in (1, 1000, 10), (100, 1, 1):
 		found = yade(scene + f'''
 grid = MpmGrid(cellSize=0.25)
@@ -82,7 +82,7 @@ def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e
 
 @pytest.mark.parametrize('scheme, steps, few, rests, young, each, admitted', [('newmark', 25, 6, 0.1, 1e9, 1, 0.002), ('generalised-alpha', 25, 6, 0.1, 1e9, 1, 0.002), ('explicit', 26, 26, 0.5, 3e6, 10, 0.01)])
 def test_a_block_slides_on_an_incline(yade, scheme, steps, few, rests, young, each, admitted):
-	"""With g (sin b - mu cos b) where tan b > mu, else not at all."""
+	"""Acceleration g (sin b - mu cos b) if tan b > mu, else none."""
 	moves, stays = yade(scene + sliding + f'''
 print(json.dumps([slide(0.5, 0.3, {scheme!r}, {steps}, young={young}, each={each}), slide(0.5, 0.7, {scheme!r}, {few}, {rests}, {young}, {each})]))
 ''').result
@@ -184,7 +184,7 @@ print(json.dumps([fly(), fly(scheme='generalised-alpha', rhoInfinity=0.5)]))
 
 
 def test_a_body_falls_freely_until_its_gap_has_closed(yade):
-	"""By half a cell, over which nodes of one grid would have held it; and comes to rest where the other one is."""
+	"""Fall of half a cell, over which nodes of one grid would have connected it; it comes to rest where the other one is."""
 	found = yade(scene + '''
 material('soil', young=1e6)
 grid = MpmGrid(cellSize=0.25)
@@ -393,7 +393,7 @@ print(json.dumps([contact.force[1], [[f(points['excessPressure'][o]) for f in (m
 ''').result
 	assert abs(force / 1e4 - 1) < 1e-6
 	for (least, most), (weakest, strongest), modulus in zip(pressures, stresses, (4e6, 1e6)):
-		share = modulus / (modulus + 1e6)  # of the water, in small strains
+		share = modulus / (modulus + 1e6)  # part of the water, in small strains
 		assert most - least < 1e-3 * most and abs(most / (share * 1e4) - 1) < 0.02
 		assert np.allclose([weakest - most, strongest - least], -1e4, rtol=1e-4)
 

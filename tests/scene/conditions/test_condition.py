@@ -175,7 +175,7 @@ dug = mpm.stages.excavate(pack.inAlignedBox((-1, 1.5, -1), (9, 9, 9)))
 O.run(4, wait=True)
 print(json.dumps(dict(advice=str(advice), dug=dug, force=springs.resultant[1])))
 ''').result
-	assert 'dim=2 (plane strain) will do' not in result['advice']  # what it does along z is not known
+	assert 'dim=2 (plane strain) will do' not in result['advice']  # its action along z is not known
 	assert result['dug'] > 0 and result['force'] < weight
 
 

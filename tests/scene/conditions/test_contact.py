@@ -308,7 +308,7 @@ print(json.dumps([labels, forces, len(mpm.contactForces()[0])]))
 	pressed = read(run.folder / 'pressed-contacts.2.vtu')
 	places, pressure = vtk_to_numpy(pressed.GetPoints().GetData()).reshape(-1, 2, 3), vtk_to_numpy(pressed.GetCellData().GetArray('pressure'))
 	x, y = places.mean(axis=1)[:, :2].T
-	middle = (np.abs(x - 0.5) < 0.4) & (y < 1)  # of the lower face; there is soil all along it
+	middle = (np.abs(x - 0.5) < 0.4) & (y < 1)  # middle of the lower face; there is soil all along it
 	assert pressure[middle].min() > 0 and abs(np.linalg.norm(places[:, 1] - places[:, 0], axis=1) @ pressure / forces[0][1] - 1) < 0.05
 
 

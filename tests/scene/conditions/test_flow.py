@@ -508,7 +508,7 @@ print(json.dumps(found))
 
 
 def test_layers_bring_their_water_and_what_is_dug_out_takes_it(yade):
-	"""What is placed at once is borne by the water, and what is dug out leaves suction; neither counts as water that flows."""
+	"""Soil that is placed at once is borne by the water, and soil that is dug out leaves suction; neither counts as water that flows."""
 	placed, dug, balance = yade(
 	        setting + '''
 solver = column(8, gravity=10)

@@ -35,7 +35,7 @@ def momentum(): return 1500 * sum(b.state.volume0 * np.array(b.state.vel) for b 
 
 
 def test_weight_is_borne_in_statics(yade):
-	"""By section and metre, by revolution, in space; a body that begins a little above the soil falls to it. The friction under it holds it sideways."""
+	"""Weights by section and metre, by revolution, in space; a body that begins a little above the soil falls to it. The friction under it constrains it sideways."""
 	results = yade(scene + '''
 found = []
 for dim, axis, at, size, mass in ((2, False, (1.03, 1.2, 0), (0.4, 0.2, 3), 2600 * 4 * 0.4 * 0.2), (2, False, (1.03, 1.23, 0), (0.4, 0.2, 0.5), 2600 * 4 * 0.4 * 0.2),

@@ -100,11 +100,11 @@ print(json.dumps([solver.wallOverlap, (total / weight).tolist(), solver.reaction
 ''').result
 	assert overlap > 0.05
 	assert abs(sums[0]) < 1e-5 and abs(sums[1] - 1) < 1e-5 and sums[:2] == data
-	assert 0 < abs(friction) < 1e-6  # of rollers, behind which the domains are held, too
+	assert 0 < abs(friction) < 1e-6  # rollers, behind which the domains are constrained, too
 
 
 def test_a_plate_goes_and_comes_back_by_a_curve_of_its_own(yade):
-	"""As one that goes with the loads, as far as that goes; afterwards elastic ground is where it was."""
+	"""Same result as one that goes with the loads, as far as that goes; afterwards elastic ground is where it was."""
 	with_loads, by_curve, back, conflict, idle = yade(ground + '''
 def push(**settings):
 	solver = ground(gravityCurve=[(0, 1)], **settings)

@@ -32,7 +32,7 @@ def top(**what):
 
 
 def test_loads_and_held_nodes_act_on_the_body_they_name(yade):
-	"""What is above each floor is borne by it, and a row of nodes that is held for one body does not hold the other one in the same cells."""
+	"""Each floor bears the soil above it, and a row of nodes that is constrained for one body does not constrain the other one in the same cells."""
 	loaded, held, walled = yade(scene + '''
 found = []
 solver = beside(loads=[top(body='right')])
@@ -57,7 +57,7 @@ print(json.dumps(found))
 
 
 def test_a_load_goes_on_after_a_restart(yade):
-	"""With the body that it names, to the last bit."""
+	"""Same bits with the body that the load names."""
 	same, names = yade(scene + '''
 solver = beside(MpmDynamicEngine, [top(body='right')], gravityCurve=[(0, 1)])
 O.dt = 0.01

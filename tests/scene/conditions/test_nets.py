@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What deforms with nodes beside the soil: YADE's GridConnection, ChainedCylinder and PFacet, moved and free."""
+"""Bodies that deform with nodes beside the soil: YADE's GridConnection, ChainedCylinder and PFacet, moved and free."""
 from conftest import outcomesOf
 
 scene = '''

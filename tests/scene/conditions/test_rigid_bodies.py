@@ -39,7 +39,7 @@ def forces(solver): return {i: list(f) for c in solver.contacts for i, f in zip(
 
 
 def test_a_body_moved_by_state_pos_presses_and_rubs(yade):
-	"""As one with a velocity; where a step fails, it stays where the script has put it, and the next step makes the rest of the way."""
+	"""Same forces as those of a body with a velocity; where a step fails, it stays where the script has put it, and the next step makes the rest of the way."""
 	results = yade(scene + '''
 def pushed(how):
 	solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
@@ -178,7 +178,7 @@ def test_what_cannot_be_right_is_refused_before_it_is(yade):
 
 
 def test_who_moves_what_goes_by_masks(yade):
-	"""What an integrator's mask leaves out, the engine moves; points that it means may stand beside it in statics; a ParallelEngine without one is none."""
+	"""The engine moves bodies that an integrator's mask leaves out; points that it means may stand beside it in statics; a ParallelEngine without one is none."""
 	results = yade(scene + '''
 found = []
 for engines in [], [NewtonIntegrator(damping=0)], [NewtonIntegrator(damping=0, mask=4)], [NewtonIntegrator(dead=True)], [ParallelEngine([[ForceResetter()]])]:
@@ -324,7 +324,7 @@ print(json.dumps([turned(100), turned(20)]))
 	for first, last, slipping in results:
 		assert first[0] < -500 and abs(first[1]) < 1 and slipping < 0.05
 		assert abs(math.degrees(math.atan2(last[1], -last[0]))) < 2
-		assert abs(last[0] / first[0] - 1) < 0.15 and abs(last[2] / first[2] - 1) < 0.04  # which points lose that turn through the cells
+		assert abs(last[0] / first[0] - 1) < 0.15 and abs(last[2] / first[2] - 1) < 0.04  # loss of points that turn through the cells
 
 
 def test_a_ball_that_slides_or_rolls_is_neither_lifted_nor_held(yade):
@@ -424,7 +424,7 @@ def pictureOf(path):
 
 
 def test_edges_and_small_balls_are_warned_of(yade):
-	"""By name, with the cells that see them: a turned Box as long as less than three cells of its edge are in the soil, a ball of less than a cell; and the border of a Facet that leans, which no cells resolve; not a Box that lies flat, nor a ball of many cells."""
+	"""Warnings by name, with the cells that see them: a turned Box as long as less than three cells of its edge are in the soil, a ball of less than a cell; and the border of a Facet that leans, which no cells resolve; not a Box that lies flat, nor a ball of many cells."""
 	run = yade(scene + '''
 def pushed(body):
 	solver = soil(contacts=[MpmContact(friction=0.3, mask=1, stiffness=10)])

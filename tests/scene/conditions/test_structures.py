@@ -53,7 +53,7 @@ print(json.dumps(found))
 
 
 def test_a_geotextile_has_the_strain_of_the_ground(yade):
-	"""Of a block that is stretched, and of one that is pressed only if it takes compression; what it takes the ground does not."""
+	"""Strain of a block that is stretched, and of one that is pressed only if it takes compression; load that it takes is taken off the ground."""
 	found = yade(block + '''
 found = []
 for pulled in 1, -1:
@@ -443,7 +443,7 @@ print(json.dumps([max(sheet.axialForces) / (np.tan(pi / 4 - phi / 2)**2 * 18e3 *
 	assert abs(force - 1) < 0.08 and moves > 0
 
 
-# What is given to ground(), and what a beam is said not to part the soil beside; '' if it does.
+# Arguments of ground(), and the feature beside which a beam is said not to part the soil; '' if it does.
 oneBody = {
         'dict()': '',
         'dict(line=((1, 2), (3, 2)))': '',
@@ -498,7 +498,7 @@ O.run(5, wait=True)
 
 
 def test_loads_on_the_two_sides_of_a_wall_do_not_mix(yade):
-	"""Where one surface ends at a wall and another begins a millimetre behind, equal loads on both sides do not bend it; one surface across it does a little."""
+	"""Equal loads on both sides do not bend the wall if one surface ends at it and another begins a millimetre behind; one surface across it bends it a little."""
 	apart, across = yade(block + '''
 found = []
 for lines in [[(3, 2), (2.001, 2)], [(1.999, 2), (1, 2)]], [[(3, 2), (1, 2)]]:

@@ -89,7 +89,7 @@ O.engines[0].grid = MpmGrid(cellSize=h / 2, period=(2, 0, 0))
 print(json.dumps([errors, same, refused(O.run, 1, wait=True)]))
 ''').result
 	assert errors[0] < 5e-3 and errors[1] < 5e-3
-	assert errors[4:] == pytest.approx([-math.sin(math.radians(20)), math.cos(math.radians(20))], rel=1e-4)  # of total stress; the surface has moved a little
+	assert errors[4:] == pytest.approx([-math.sin(math.radians(20)), math.cos(math.radians(20))], rel=1e-4)  # relative to the total stress; the surface has moved a little
 	assert 0 < errors[2] < 100 and errors[3] == 3 * errors[2]  # a node is asked once in a step
 	assert loaded
 	assert 'functions are not saved' in refusal and 'MpmWater.pressure' in refusal

@@ -66,7 +66,7 @@ print(json.dumps([edge.reaction[1] / (12 * 1000 * 1e-2), float(np.abs(mpm.arrays
 
 
 def test_a_saved_scene_goes_on_bit_for_bit(yade):
-	"""With all that is remembered: what the edge bears, energies, the accelerations of a moving base."""
+	"""Bits with all that is remembered: load of the edge, energies, the accelerations of a moving base."""
 	go = '''
 for kind in kinds:
 	O.reset()
@@ -90,7 +90,7 @@ kinds = dict(
 
 
 def test_damping_takes_energy_and_it_balances(yade):
-	"""Of ground that a moving base shakes, by its stiffness; and of a body that flies, by its mass."""
+	"""Energies of ground that a moving base shakes, by its stiffness; and of a body that flies, by its mass."""
 	run = yade(scene + '''
 shaken = MpmBoundary(fix='xy', motion=MpmBaseMotion(history=history), **base)
 solver = ground(6, boundaries=[shaken], rayleigh=(0, 0.05))

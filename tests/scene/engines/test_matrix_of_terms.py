@@ -133,10 +133,10 @@ if processes.isFirst:
 		json.dump(found, file)
 '''
 
-right = 1e-8  # of the largest displacement and stress: round-off, and the tolerance of the steps
-onRings = 2e-3  # where a pressure acts at single places of a ring
+right = 1e-8  # part of the largest displacement and stress: round-off, and the tolerance of the steps
+onRings = 2e-3  # a pressure acts at single points of a ring
 equal = 'cells of several sizes, cannot go with '
-# What differs from right in a cell: a larger bound, or the words of the refusal.
+# Differences from right in a cell: a larger bound, or the words of the refusal.
 others = {
         ('pressure', 'refinements'): 'a surface under pressure goes from cells of one size to cells of another',
         **{(term, 'divided'): f'{name} cannot go with distributed=True' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},

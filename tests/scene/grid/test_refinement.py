@@ -184,7 +184,7 @@ print(json.dumps(found))
 
 
 def test_refused(yade):
-	"""What has not been shown to be right with cells of several sizes, by a sentence that names it."""
+	"""Features that have not been shown to be right with cells of several sizes are refused by a sentence that names them."""
 	cases = {
 	        'block(); solver.grid.period = (2, 0, 0)': 'MpmGrid.refinements: a grid with period = (2 0 0)',
 	        'block(water=[MpmWater(level=1)])': 'cannot go with water',

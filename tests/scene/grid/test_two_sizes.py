@@ -7,7 +7,7 @@ from conftest import root
 
 
 def python(text):
-	"""What a Python of its own prints in the folder of the example: names of its modules are those of other examples, too."""
+	"""Output of a Python of its own in the folder of the example: names of its modules are those of other examples, too."""
 	ended = subprocess.run(['/usr/bin/python3', '-c', text], cwd=root / 'examples' / 'two_sizes', capture_output=True, text=True)
 	assert ended.returncode == 0, ended.stderr
 	return ended.stdout

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What becomes of each law in each kind of analysis, for test_every_law.py: one process for all of them, as JSON {law: {check: [name of the exception or '', its sentence or what was found]}}.
+"""Checks of each law in each kind of analysis, for test_every_law.py: one process for all of them, as JSON {law: {check: [name of the exception or '', its sentence or what was found]}}.
 
 The argument is the library of the user material.
 """
@@ -116,7 +116,7 @@ def explicit(name):
 
 
 def restart(name):
-	"""Which columns have other bits after a restart amidst; and what there is by its name in arrays and files, and what has changed."""
+	"""Columns that have other bits after a restart amidst; columns by their name in arrays and files, and those that have changed."""
 	ground(name, engineOf(name))
 	first = mpm.arrays()
 	O.engines += [MpmVtkRecorder(fileName='law-', iterPeriod=4)]
@@ -124,7 +124,7 @@ def restart(name):
 	O.save('middle.yade.gz')
 	O.run(1, wait=True)
 	straight = mpm.arrays()
-	files = sorted(Path('.').glob('law-*.vtu'))  # of the first step and the fourth
+	files = sorted(Path('.').glob('law-*.vtu'))  # files of the first step and the fourth
 	text = files[-1].read_bytes()
 	for file in files:
 		file.unlink()

@@ -224,7 +224,7 @@ def test_bad_input_is_refused(outcomes, statement, kind, said):
 
 
 def test_typical_sand(yade):
-	"""By hand: R = 0.5 at 100 and at 50 kPa, loose and dense. A triaxial test has the modulus and strength that the formulas mean."""
+	"""Values by hand: R = 0.5 at 100 and at 50 kPa, loose and dense. A triaxial test has the modulus and strength that the formulas mean."""
 	run = yade(
 	        setting + '''
 near = lambda values, **expected: all(abs(values[name] - number) <= 1e-6 * abs(number) for name, number in expected.items())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a law of the plugin has to have, of each of them: every_law.py, which says what each check does, tries all of it in one process."""
+"""Requirements of a law of the plugin, for each of them: every_law.py, which says what each check does, tries all of it in one process."""
 import subprocess
 from math import radians, sin
 
@@ -40,7 +40,7 @@ laws = {
 flowing = {name: 'viscosity' if name.startswith('viscous') else 'relaxationTime' for name in laws if name.startswith(('viscous', 'relaxing'))}
 inMemory = 'the strength of which follows from what its points remember'
 
-# What is refused, with words of its sentence.
+# Refusals, with words of their sentence.
 refused = {(name, 'static'): (attribute, 'seconds') for name, attribute in flowing.items()}
 refused |= {(name, check): ('with inertia', 'MpmImplicitEngine') for name in flowing for check in ('excavation', 'replacement')}
 refused |= {(name, 'explicit'): ('nonlocalLength', "scheme = 'explicit'") for name in ('softening, nonlocal', 'relaxing softening')}
@@ -87,7 +87,7 @@ def water(name, found):
 
 
 def undrained(name, found):
-	"""What presses is taken by the water: its excess is many times the effective stress."""
+	"""The water takes the pressure: its excess is many times the effective stress."""
 	requireSettled(name, found)
 	assert found['excess'] > 5 * found['pressed']
 

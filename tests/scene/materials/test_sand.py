@@ -8,7 +8,7 @@ from conftest import root
 
 
 def outcome(yade, *options):
-	"""What examples/benchmarks/sand.py prints: numbers by name."""
+	"""Output of examples/benchmarks/sand.py: numbers by name."""
 	text = yade(root / 'examples/benchmarks/sand.py', *options).stdout
 	found = re.search(r'complete; N_gamma (.*); (\d+) iterations \(at most (\d+)\), (\d+) cuts', text)
 	assert found, text
@@ -106,7 +106,7 @@ assert O.engines[0].ghostShare == share
 
 
 def test_a_face_that_limit_analysis_does_not_let_stand_is_told(yade):
-	"""Where the grid holds a cut without moving. A plane slip lets a vertical face stand to 4 c / (density g) tan(45 + phi / 2), here with c = 2.7 kPa; what is held, or has a load, is not judged."""
+	"""Cuts that the grid keeps without motion. A plane slip lets a vertical face stand to 4 c / (density g) tan(45 + phi / 2), here with c = 2.7 kPa; cuts that are constrained, or have a load, are not judged."""
 	said = yade(CUT + '''
 def told(loads=(), **arguments):
 	cut(**arguments)

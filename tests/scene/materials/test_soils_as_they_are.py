@@ -161,7 +161,7 @@ print(json.dumps([
 
 
 def test_softening_goes_with_a_mean_over_a_length_of_the_soil(yade):
-	"""Of a wave cos(k y) between two ends without flux the mean keeps 1 / (1 + l^2 k^2), and strength goes with twice that less the own strain."""
+	"""Mean of a wave cos(k y) between two ends without flux is 1 / (1 + l^2 k^2) of it, and strength goes with twice that less the own strain."""
 	yade(
 	        setting + '''
 O.materials.append(MpmMohrCoulombMat(residualCohesion=1e3, softeningStrain=.5, label='soil', **friction))

@@ -97,7 +97,7 @@ print(json.dumps(dict(plane=error(), ring=error(axisymmetric=True), period=error
 
 
 def test_studies_refuse_what_a_step_refuses(tmp_path):
-	"""By its name, instead of leaving it out."""
+	"""Refusal by name, instead of leaving it out."""
 	above = 'solver.loads = [MpmTraction(surface=[(1, 5), (0, 5)], pressure=1e3)]; '
 	both = 'build(); solver.loads = [MpmTraction(surface=solver.boundaries[1].surface, pressure=1)]; '
 	cells = 'build(without=("loads", "boundaries", "contacts"), refinements=[MpmRefinement(max=(.5, .5, inf), halvings=1)]); '

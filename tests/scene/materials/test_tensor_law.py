@@ -252,7 +252,7 @@ print(json.dumps([[[c['stress'].tolist(), c['elasticStrain'].tolist(), c['defGra
 	).result
 	for stress, elastic, defGrad, back in (map(np.array, curve) for curve in curves):
 		across = stress[:, [0, 2], [0, 2]]
-		assert np.abs(across + 500).max() < 1e-4  # of 1e4 and more along y, to the round-off of the strains
+		assert np.abs(across + 500).max() < 1e-4  # relative to 1e4 and more along y, to the round-off of the strains
 		assert stress[-1, 1, 1] < -1500
 		stretch = np.log(defGrad[-1, [0, 1, 2], [0, 1, 2]])
 		plastic = stretch - elastic[-1].diagonal() + elastic[0].diagonal()

@@ -111,7 +111,7 @@ counter = lambda rate=0., **more: MpmUserMat(library=os.environ['UMAT'], paramet
 
 
 def test_it_is_told_the_first_increment_and_the_times(told):
-	"""As Abaqus counts them: TIME as the increment begins, KINC from 1 on. A step that is cut counts once; a DTIME of 0 is never told; CMNAME is the label in capitals."""
+	"""Times as Abaqus counts them: TIME as the increment begins, KINC from 1 on. A step that is cut counts once; a DTIME of 0 is never told; CMNAME is the label in capitals."""
 	told(
 	        counting + '''
 for duration, seconds in (0, 10), (5, 5):

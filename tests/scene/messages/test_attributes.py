@@ -247,7 +247,7 @@ outOfRange = {
         'MpmVtkRecorder.solver': None,
 }
 
-# Of each kind of value, by the type of its default: what has the wrong type, is NaN, infinite, empty, huge.
+# Wrong values of each kind, by the type of its default: the wrong type, NaN, infinite, empty, huge.
 kinds = {
         'float': (['"1"', 'None', 'True', '(1, 2)', 'object()', '1j'], ['nan'], ['inf', '-inf'], ['()', '""'], ['1e308', '10**400']),
         'int': (['"1"', 'None', 'True', '2.0', 'object()'], ['nan'], ['inf'], ['()', '""'], ['2**31 - 1', '10**30']),
@@ -465,7 +465,7 @@ def test_what_can_only_be_read_says_so(outcomes):
 
 
 def test_what_cannot_be_meant_is_refused_by_the_assignment(outcomes):
-	"""With the old value kept; the sentence names class and attribute and says what is admitted."""
+	"""The old value is kept; the sentence names class and attribute and says what is admitted."""
 	for class_, name, kind, category, text, error, sentence, atOnce in outcomes:
 		if category in ('huge', 'readonly') or (f'{class_}.{name}', text) in admitted: continue
 		where = f'{class_}.{name} = {text}: {error} {sentence}'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cannot be meant is refused with the kind of exception that Python has for it, and a sentence that names parameter and value."""
+"""Values that cannot be meant are refused with the kind of exception that Python has for it, and a sentence that names parameter and value."""
 import pytest
 from conftest import outcomesOf
 
@@ -110,7 +110,7 @@ refused = (
                 ('point(dynamic=True)', 'ValueError', ['Body #0', 'blockedDOFs']),
                 ('point(shape=Sphere(radius=1))', 'ValueError', ['Body #0', "'soil'", 'Sphere', 'last material']),
         ] +
-        # what only the engine sees: positions, elements changed in place, values that do not go together
+        # Values that only the engine sees: positions, elements changed in place, values that do not go together
         [
                 ('step("b.state.pos = (nan, 0, 0)")', 'ValueError', ['Body #5', '.pos = (nan, 0, 0)']),
                 ('step("b.state.refPos = (0, inf, 0)")', 'ValueError', ['Body #5', '.refPos = (0, inf, 0)']),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a user meets when something goes wrong: a reason, an exit code, and a scene that is still usable."""
+"""Failures as a user meets them: a reason, an exit code, and a scene that is still usable."""
 import json
 
 import pytest

@@ -244,7 +244,7 @@ assert outOfBalance() < 1e-8, outOfBalance()
 
 
 def test_python_may_ask_while_the_scene_runs(yade):
-	"""What it gets is one converged state, whole; also with bodies erased in the middle of a step and values assigned."""
+	"""Python gets one converged state, whole; also with bodies erased in the middle of a step and values assigned."""
 	yade(
 	        refusing + '''
 import time

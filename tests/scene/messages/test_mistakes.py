@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What somebody gets wrong who writes a first script: each message says what to do instead. (Single values: test_bad_input.py.)"""
+"""Mistakes in a first script: each message says what to do instead. (Single values: test_bad_input.py.)"""
 import pytest
 from conftest import outcomesOf
 
@@ -135,7 +135,7 @@ def test_isExplained(outcomes, script, exception, words):
 
 
 def test_warnings(yade):
-	"""What can be meant, but seldom is."""
+	"""Settings that can be meant, but seldom are."""
 	run = yade(setting + '''
 scene(gravity=(0, 1, 0))
 O.step()

@@ -84,7 +84,7 @@ mpm.assign(stress=np.tile(np.diag([0, 8e4, 0]), (64, 1, 1)))''', 'ValueError', [
 ]
 
 
-# what must hold: script by sentence
+# Sentences that must hold, with their scripts.
 sound = {
         'a look at the points takes a time in proportion to their number, whatever their sizes; a step whose points are those of the last one takes none':
         '''
@@ -161,7 +161,7 @@ def test_holds(outcomes, script):
 
 
 def paragraphs(run):
-	"""What was said on stderr after each say(title)."""
+	"""Text on stderr after each say(title)."""
 	return {text.split('\n')[0]: text for text in run.stderr.split('== ')[1:]}
 
 
@@ -308,7 +308,7 @@ say('end')
 ''')
 	said = paragraphs(run)
 	warnings = [line for line in said['sound'].splitlines() if 'WARNING' in line]
-	assert all('fill: the region has' in line for line in warnings), warnings  # as some of the lattices are off the region's edges
+	assert all('fill: the region has' in line for line in warnings), warnings  # some of the lattices are off the region's edges
 	assert said['loaded twice'].count('m3 of material are counted twice') == 1, said['loaded twice']
 
 

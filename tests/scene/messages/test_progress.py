@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a user sees while an analysis runs, and the numbers for YADE's plot."""
+"""Output for a user while an analysis runs, and the numbers for YADE's plot."""
 import os
 import re
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What users are told who have misspelt a name, used another unit, a label twice, or another grid: what was probably meant, in the exception or warning."""
+"""Messages for users who have misspelt a name, used another unit, a label twice, or another grid: what was probably meant, in the exception or warning."""
 import pytest
 from conftest import outcomesOf
 
@@ -85,7 +85,7 @@ refused = [
         # positions without soil, cells without number
         ('scene(); mpm.histories([(70, 1, 0)])', 'ValueError', ['(70.0, 1.0, 0.0)', '66.3 m away', 'cellSize = 1 m']),
         ("scene(); mpm.filling._room = lambda: 1e7; mpm.fill(pack.inAlignedBox((0, 0, -1), (200, 200, 1)), MpmGrid(cellSize=0.01), 2, 'soil')", 'ValueError', ['cellSize = 0.01 m', 'GiB are free']),
-        # of functions of yade.mpm
+        # functions of yade.mpm
         ("mpm.plot(filename='x.png')", 'TypeError', ["plot: there is no argument 'filename'; did you mean 'fileName'?"]),
         ("mpm.fill(pack.inSphere((0, 0, 0), 1), MpmGrid(cellSize=1), pointPerCell=2, material='soil')", 'TypeError', ["fill: there is no argument 'pointPerCell'; did you mean 'pointsPerCell'"]),
         ("scene(); mpm.fill(pack.inAlignedBox((0, 0, 0), (1, 1, 1)), MpmGrid(cellSize=1), 2, 'soil', yuong=1)", 'TypeError', ["yuong", "did you mean 'young'?"]),
@@ -95,7 +95,7 @@ refused = [
         ("mpm.terrain(top='x', botom=0)", 'TypeError', ["did you mean 'bottom'"]),
         ("mpm.stages.excavate(None, step=2)", 'TypeError', ["did you mean 'steps'"]),
         ("mpm.ploot()", 'AttributeError', ["did you mean 'plot'"]),
-        # what is read is a copy
+        # attributes that are read are copies
         ('scene().boundaries.append(base)', 'AttributeError', ['MpmImplicitEngine.boundaries', 'copy', 'x.boundaries = [*x.boundaries, another]']),
         ('scene().loadCurve.extend([(2, 1)])', 'AttributeError', ['MpmImplicitEngine.loadCurve']),
         ('scene().loads.insert(0, 1)', 'AttributeError', ['MpmImplicitEngine.loads']),
@@ -129,7 +129,7 @@ mpm.fill(region, MpmGrid(dim=3, cellSize=1), 1, 'soil')""", 'ValueError', ['fill
         ('MpmAbsorbingBoundary(min=(2, 0, 0), max=(0, 2, 0))', 'ValueError', ['MpmAbsorbingBoundary.min = 2']),
 ]
 
-# what must hold: script by sentence
+# Sentences that must hold, with their scripts.
 sound = {
         'a copy of an attribute is a tuple in all else':
         '''
@@ -266,7 +266,7 @@ say('end')
 	}
 	for title in 'steel', 'a model in a box', 'another division', 'refined', 'periodic':
 		assert 'WARNING' not in said[title], said[title]
-	held = 'the ghost stabilisation took up' # which is true of a block that has next to no strength
+	held = 'the ghost stabilisation took up' # true of a block that has next to no strength
 	slides = 'Coulomb 1776' # and which no plane through its foot bears
 	assert said['next to no cohesion'].count('WARNING') == 2 and all(said['next to no cohesion'].count(text) == 1 for text in (held, slides)), said['next to no cohesion']
 	for title, words in expected.items():

@@ -29,7 +29,7 @@ def iterations(path, dt=1 / 40):
 
 
 def equal(fields, arrays):
-	"""Whether the cell data of a 'points' file are those of mpm.arrays(), to the last bit where nothing is computed."""
+	"""Compares the cell data of a 'points' file with mpm.arrays(), to the last bit where nothing is computed."""
 	mean = np.trace(arrays['stress'], axis1=1, axis2=2) / 3
 	deviator = arrays['stress'] - mean[:, None, None] * np.eye(3)
 	assert set(fields) == {'displacement', 'stress', 'defGrad', 'strain', 'elasticStrain', 'meanStress', 'sqrt2J2', 'plasticStrain', 'volume', 'material', 'clamped', 'id'}
@@ -165,7 +165,7 @@ recorder()
 ''')
 	faces = Vtu(yade.folder / 'with-ghostFaces.0.vtu')
 	assert np.array_equal(faces.boxes, [[[1, 0, 0], [1, 1, 0]]])
-	assert faces.fields['ghostStiffness'] == pytest.approx([1e-2 * 1 / 3])  # of the softer cell
+	assert faces.fields['ghostStiffness'] == pytest.approx([1e-2 * 1 / 3])  # stiffness of the softer cell
 	assert len(Vtu(yade.folder / 'without-ghostFaces.0.vtu')) == 0
 
 
@@ -270,7 +270,7 @@ print(json.dumps([failedAt, part, partial]))
 
 
 def test_periods(yade):
-	"""Of load time, counted with a tolerance; without the first; a limited number; late; not at all while dead."""
+	"""Periods of load time, counted with a tolerance; without the first; a limited number; late; not at all while dead."""
 	yade(
 	        '''
 from scenes import *
@@ -312,7 +312,7 @@ O.run(3, wait=True)
 
 
 def test_a_solver_with_a_period_of_its_own(yade):
-	"""As among grains: a state that has not changed is not written again, and the last one is there when O.run(n) ends."""
+	"""Files as among grains: a state that has not changed is not written again, and the last one is there when O.run(n) ends."""
 	expected = {7: [0, .001, .011, .021, .031, .041], 100: [0, .021, .041]}
 	run = yade(
 	        f'''
@@ -371,7 +371,7 @@ print(json.dumps([message, left]))
 	assert message == 'cannot write file out/column-points.3.vtu: File too large.'
 	assert left == [f'column-points.{i}.vtu' for i in (0, 1, 2)] + ['column-points.pvd']
 	assert iterations(yade.folder / 'out/column-points.pvd') == [0, 1, 2, 3, 4]
-	assert 'vtk' not in run.stderr.replace('column-points.3.vtu', '') # that library's own words for the same
+	assert 'vtk' not in run.stderr.replace('column-points.3.vtu', '') # words of that library for the same
 
 
 mistakes = {
@@ -424,7 +424,7 @@ print(json.dumps(messages))
 
 
 def test_recorders_may_share_a_name_if_their_files_differ(yade):
-	"""By kind, or because only one of them is alive."""
+	"""Files differ by kind, or only one of the recorders is alive."""
 	yade('''
 from scenes import *
 column(4)

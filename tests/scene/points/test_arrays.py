@@ -192,7 +192,7 @@ for halfSize in (0.6, 0.5, 0.5), (0.51, 0.5, 0.5): # which no deformation has ma
 
 
 def test_tensionInTheGroundIsTold(yade):
-	"""Where gravity acts: in other scenes it is ordinary."""
+	"""Only where gravity acts: in other scenes it is ordinary."""
 	run = yade(scene + '''
 import sys
 def assign(sign, share=1.):

@@ -42,7 +42,7 @@ def start(*materials, **arguments):
 
 
 def test_ratio_by_default(yade):
-	"""That of each law; and the ground is at rest with it, on its yield surface (Cam clay) or within."""
+	"""Ratio of each law; and the ground is at rest with it, on its yield surface (Cam clay) or within."""
 	found = yade(
 	        setting + '''
 print(json.dumps([start(*materials, **arguments) for materials, arguments in (
@@ -68,7 +68,7 @@ def through(vertical, ratio, M=1.2):
 
 
 def test_preconsolidation(yade):
-	"""That of the largest vertical stress: OCR times the present one, or what a cover that is gone has weighed; None keeps what points have."""
+	"""Preconsolidation by the largest vertical stress: OCR times the present one, or the weight of a cover that is gone; None keeps what points have."""
 	loaded, unloaded, eroded, kept = yade(
 	        setting + '''
 law = lambda: MpmCamClayMat(**clay)
@@ -82,7 +82,7 @@ print(json.dumps([start(law(), **how) for how in ({}, dict(OCR=2), dict(OCR=lamb
 
 
 def test_a_ratio_that_is_given_lies_within_the_yield_surface(yade):
-	"""Of Cam clay: the preconsolidation pressure is at least that of the present state."""
+	"""Preconsolidation pressure of Cam clay is at least that of the present state."""
 	found = yade(setting + "print(json.dumps([start(MpmCamClayMat(**clay), K0=K0, OCR=OCR) for K0, OCR in ((.3, 1), (1.5, 1.2), (1, 1))]))").result
 	for (ratio, depth, pressure, moved), K0 in zip(found, (.3, 1.5, 1)):
 		assert np.allclose(ratio, K0, rtol=1e-9) and moved < 1e-9
@@ -156,7 +156,7 @@ print(json.dumps([beside((20, 40)), beside((30, 30), OCR=dict(a=1, b=4)), beside
 
 
 def test_ground_on_refinements_is_at_rest(yade):
-	"""Where cells are halved from a height on it is exactly so; beside larger cells up to 0.2 % of the stress, by the nodes that hang."""
+	"""Rest is exact where cells are halved from a height on; beside larger cells stresses change up to 0.2 %, by the hanging nodes."""
 	changes = yade(
 	        setting + """
 def changed(box):

@@ -6,7 +6,7 @@ import pytest
 @pytest.mark.parametrize('massFactor', [1e-3, 0.25])
 @pytest.mark.parametrize('number', [1, 2, 3, 4])
 def test_few_points_fall(yade, number, massFactor):
-	"""Of a cell that has no neighbours: no ghost face makes up for what is missing in the mass of its nodes."""
+	"""Points of a cell that has no neighbours: no ghost face makes up for what is missing in the mass of its nodes."""
 	yade(
 	        f'''
 from yade import mpm

@@ -200,7 +200,7 @@ np.savez('continued.npz', **state())
 
 
 def test_contact_keeps_its_forces(yade):
-	"""What places on the body remember adds up to the force of the step, whatever points are split."""
+	"""Remembered forces of contact points on the body add up to the force of the step, whatever points are split."""
 	yade(pressed + '''
 def forces():
 	touching = mpm.contactForces()

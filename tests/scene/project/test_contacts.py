@@ -38,7 +38,7 @@ def test_what_is_not_there_is_missed():
 
 
 def test_the_limit_of_the_cone():
-	"""Of N = 10 + 3 / cells, if three grids at least have got to the end, and as deep."""
+	"""Limit of N = 10 + 3 / cells, if three grids at least have got to the end, and as deep."""
 	results = {f'cone-R{cells}': dict(part=1, reached=10, late=10 + 3 / cells) for cells in (2, 3, 4)}
 	for more in {}, {'cone-R6': dict(part=1, reached=10, late=10.5)}, {'cone-R6': dict(part=1, reached=2, late=99)}:
 		assert abs(derived['cone-limit'].function(results | more)['late'] - 10) < 1e-12
@@ -46,7 +46,7 @@ def test_the_limit_of_the_cone():
 
 
 def test_the_limit_of_the_vane():
-	"""Of a torque of (1 + 1 / cells)^2, if all three grids have turned."""
+	"""Limit of a torque of (1 + 1 / cells)^2, if all three grids have turned."""
 	results = {f'vane-R{cells}': dict(turned=86, first=(1 + 1 / cells)**2, torque=(.9 + 2 / cells)**2) for cells in (4, 6, 10)}
 	found = derived['vane-limit'].function(results)
 	assert abs(found['first'] - 1) < 1e-12 and abs(found['torque'] - .81) < 1e-12
@@ -54,7 +54,7 @@ def test_the_limit_of_the_vane():
 
 
 def test_cases_that_are_right(yade):
-	"""By the command; what is not right is told by how it ends."""
+	"""Cases by the command; its exit code tells what is not right."""
 	out = yade.folder / 'out'
 	right = ['edge-leaning', 'strip-3', 'plate', 'clumps', 'embracing', 'turn-plane-4-3', 'turn-normal', 'cylinder', 'ring-shear', 'energy-sticking']
 	command = [root / 'scripts/contacts', *right, 'energy-random', '--short', '--seeds', '2:5', '--out', out]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What users read: links lead somewhere, and everything public says what it is, in which unit."""
+"""Pages for users: links lead somewhere, and everything public says what it is, in which unit."""
 import json
 import math
 import os
@@ -72,7 +72,7 @@ def test_every_example_has_a_page_in_the_course():
 
 @pytest.mark.parametrize('page', sorted((root / 'examples').glob('*/README.md')), ids=lambda page: page.parent.name)
 def test_pages_of_examples_have_one_order(page):
-	"""What it shows, the command, a picture, numbers, and what to change, whose options the scripts of that folder have."""
+	"""Contents of a page: what it shows, the command, a picture, numbers, and what to change, whose options the scripts of that folder have."""
 	text = re.sub(r'```.*?```', '', page.read_text(), flags=re.DOTALL)
 	assert re.findall(r'^#{1,2} (.*)$', text, re.MULTILINE)[1:] == ['Run it', 'Picture', 'Numbers', 'What to change']
 	shows, run, picture, numbers, change = re.split(r'^#{1,2} .*$', text, flags=re.MULTILINE)[1:]
@@ -320,7 +320,7 @@ print(grain.state.pos[1])
 
 
 def test_the_documentation_is_made_without_a_warning(yade):
-	"""By Sphinx, which scripts/test installs: links between pages, and a reference of all classes and functions."""
+	"""Pages by Sphinx, which scripts/test installs: links between pages, and a reference of all classes and functions."""
 	if not shutil.which('sphinx-build'): pytest.skip('Sphinx is not installed: apt install python3-sphinx python3-myst-parser')
 	made = subprocess.run([root / 'scripts/docs', '--installed'], env=os.environ | yade.ownSettings() | {'YADE': yade.command}, capture_output=True, text=True, timeout=300)
 	assert made.returncode == 0, made.stdout + made.stderr

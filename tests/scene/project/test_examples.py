@@ -409,7 +409,7 @@ def test_wheel(yade):
 
 
 def test_grains_on_soil(yade):
-	"""Of a few grains, still moving: the base bears what the ground feels. A plough that goes down finds grains first, then the ground."""
+	"""Few grains, still moving: the base bears what the ground feels. A plough that goes down finds grains first, then the ground."""
 	script = root / 'examples' / 'grains_on_soil' / 'grains_on_soil.py'
 	run = yade(script, '--grains', 9, '--seconds', 0.3, '--every', 50, '--travel', 0.1)
 	rows = [[float(number) for number in line.split()] for line in run.stdout.splitlines() if re.match(r'0\.[0-9]+  ', line)]
@@ -481,7 +481,7 @@ def test_deposits_over_grids(yade):
 
 
 def test_water(yade):
-	"""What walls bear is exact; the factor of a slope with seepage, on six cells, is some two percent above its closed form."""
+	"""Loads of walls are exact; the factor of a slope with seepage, on six cells, is some two percent above its closed form."""
 	run = yade(root / 'examples' / 'water' / 'water.py', '--scene', 'wall')
 	off = re.findall(r'^wall: .* \((\S+) %\)$', run.stdout, re.MULTILINE)
 	assert len(off) == 3 and all(abs(float(error)) < 0.01 for error in off), run.stdout
@@ -620,7 +620,7 @@ def test_debris(yade):
 	assert (run.folder / 'out/debris/debris.png').stat().st_size > 20000 and (run.folder / 'out/debris/debris.html').stat().st_size > 30000
 
 
-# Of each task, how far it may be from its number by hand [%]: what its grid leaves, as told in examples/README.md.
+# Admitted difference of each task from its number by hand [%]: error of its grid, as told in examples/README.md.
 tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, square_footing=6, mesh_file=0.01, batch=2, restart=0, wall=2, anchored_wall=10, pit_under_water=10, tunnel=5, drawdown=4, earthquake=1, grains=0.5, triaxial=0.1)
 
 
@@ -633,7 +633,7 @@ def test_task(yade, task):
 	assert hand > 0 and abs(found / hand - 1) <= tasks[task] / 100, said
 	assert task != 'restart' or said.endswith('largest difference 0')
 	for number in re.findall(r'\d+\.\d\d?', next(line for line in (root / 'examples/README.md').read_text().splitlines() if f'({"tasks/" + task}.py)' in line).split('|')[4]):
-		assert abs(found / float(number) - 1) < 0.02, (said, number)  # as on the page
+		assert abs(found / float(number) - 1) < 0.02, (said, number)  # number on the page
 
 
 def test_there_is_a_test_of_each_task():

@@ -28,7 +28,7 @@ def findings(folder, cases, monkeypatch):
 
 
 def test_the_plan_has_every_pair_often_enough():
-	"""Of features that can be together; those that are refused stand alone, so that nothing else can be the reason."""
+	"""Pairs of features that can be together; those that are refused stand alone, so that nothing else can be the reason."""
 	counts = dict.fromkeys(allPairs, 0)
 	for chosen in Plan().until(20):
 		pairs = [ordered(a, b) for i, a in enumerate(chosen) for b in chosen[i + 1:]]

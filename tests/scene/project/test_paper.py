@@ -45,7 +45,7 @@ print(json.dumps([O.iter, solver.loadFactor, solver.converged]))
 
 
 def test_slope_without_stabilisation_is_reported_as_what_it_is(yade):
-	"""Whether and where it fails depends on round-off; a failure at step 24 is expected."""
+	"""Failure and its step depend on round-off; a failure at step 24 is expected."""
 	run = yade(
 	        '''
 import json
@@ -110,7 +110,7 @@ print(json.dumps(dict(errors=errors, differences=differences, iterations=[np.mea
 
 
 def test_column_of_cubes_equals_plane_strain(yade):
-	"""With Poisson's ratio 0, a column one cell wide and deep."""
+	"""Poisson's ratio is 0, the column one cell wide and deep."""
 	run = yade(
 	        '''
 import json

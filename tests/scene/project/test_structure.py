@@ -9,7 +9,7 @@ from conftest import root
 
 plugin = root / 'plugin'
 
-# what the core may include besides the standard library, whose headers have no folder and no suffix
+# includes of the core besides the standard library, whose headers have no folder and no suffix
 coreIncludes = re.compile(r'<\w+>|<(unsupported/)?Eigen/\w+>|<(cholmod|umfpack|dmumps_c|omp|dlfcn)\.h>|"core/(terms/)?\w+/\w+\.hpp"')
 # the interface to YADE may include anything but the classes and numerics that are built on it
 interfaceIncludes = re.compile(r'<.*>|"yade_api/\w+\.hpp"')
@@ -66,7 +66,7 @@ def test_foldersOfTheCoreIncludeThoseBelow():
 
 
 def test_foldersOfTermsIncludeThoseBefore():
-	"""What all terms need stands in core/terms itself."""
+	"""Code that all terms need stands in core/terms itself."""
 	assert [path.name for path in (plugin / 'core' / 'terms').iterdir() if path.is_dir() and path.name not in foldersOfTerms] == []
 	wrong = []
 	for path, included in includes('core/terms'):
@@ -95,7 +95,7 @@ def test_conditionsAreKnownByTheirInterface():
 
 
 def test_onlyEnginesTakeAnEngine():
-	"""What is below takes an Analysis: settings, conditions and results."""
+	"""Code below takes an Analysis: settings, conditions and results."""
 	wrong = []
 	for path in sources('engine'):
 		if path.parent.name == 'engines' or path.name == 'module.cpp': continue
@@ -120,7 +120,7 @@ def test_testsAreInTheFoldersOfWhatTheyTest():
 
 
 def test_topLevelHoldsWhatItIsMeantTo():
-	"""What is in the repository, where this is one: trials leave files behind."""
+	"""Files of the repository, where this is one: trials leave files behind."""
 	listed = subprocess.run(['git', 'ls-files'], cwd=root, capture_output=True, text=True)
 	if listed.returncode: pytest.skip('not a git repository')
 	admitted = {'CMakeLists.txt', 'plugin', 'scripts', 'tests', 'examples', 'README.md', 'LICENSE'}
@@ -144,13 +144,13 @@ def functions(text):
 	outside = None # depth of the braces around the function that is being read
 	for match in re.finditer('[;{}]', text):
 		char, position = match[0], match.start()
-		if outside is None: # what stands before a brace says what it opens
+		if outside is None: # the text before a brace says what it opens
 			head, begin = text[begin:position], position + 1
 			name = re.search(r'([\w~]+|operator\W+)\s*\(', re.sub(r'\bdecltype\s*\(', '', head))
 			if char == '{' and name: outside, first = depth, position - len(head.lstrip())
 		depth += {'{': 1, '}': -1, ';': 0}[char]
 		if char != '}' or depth != outside: continue
-		if re.match(r'\s*[,{]', text[position + 1:]): continue # of a member that a constructor initialises
+		if re.match(r'\s*[,{]', text[position + 1:]): continue # member that a constructor initialises
 		found.append((name[1], text.count('\n', first, position) + 1))
 		outside, begin = None, position + 1
 	return found
@@ -161,7 +161,7 @@ def tooLong(text):
 
 
 def test_functionsAreFound():
-	"""By what is to be found in a piece of C++ of every kind that is used."""
+	"""Functions in a piece of C++ of every kind that is used."""
 	body = '\n'.join(['\t{ int x = 1; } // }'] * 41)
 	assert functions('struct A { A(int x) : a { x }, b(x)\n{\n}\nint a; A& operator=(A) { f(); }\nvoid f() const override { }\n};') == [('A', 3), ('operator=', 1), ('f', 1)]
 	assert functions('template <class T, int N = 3> auto g(T x) -> decltype(x)\n{\n\treturn h([&] {\n\t\treturn x; });\n}\nint y[] = { 1, 2 };\n') == [('g', 5)]

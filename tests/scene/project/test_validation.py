@@ -23,7 +23,7 @@ def test_the_page_is_what_the_tables_say():
 
 
 def test_each_run_has_rows_and_each_row_a_run():
-	"""Of the same commands, in the same order; tables of what is run no more would stay otherwise."""
+	"""Tables of the same commands, in the same order; tables of what is run no more would stay otherwise."""
 	for folder, commands in validation.runs.items():
 		rows = validation.kept(folder)
 		assert list(dict.fromkeys(row['command'] for row in rows)) == [validation.commandOf(folder, command) for command in commands], folder

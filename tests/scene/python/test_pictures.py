@@ -140,7 +140,7 @@ print(json.dumps([frames, film.frames, [e.label for e in O.engines], sorted(os.l
 
 
 def test_labelsDoNotOverlap(yade):
-	"""Of wide, narrow and small pictures, slices with the small view beside them, and all that can be on top; the check finds texts that do."""
+	"""Labels of wide, narrow and small pictures, slices with the small view beside them, and all that can be on top; the check finds texts that do."""
 	found = yade('''
 import json
 from labels import overlaps
@@ -184,7 +184,7 @@ whole = 4 * np.prod(mpm.arrays()['halfSize0'][0, :2])
 print(json.dumps([[t.get_text() for t in ax.get_legend().get_texts()], [len(path) for path in paths], [area(paths[0]) / whole, area(paths[-1]) / whole], len(paths) == len(mpm.arrays()['id'])]))
 ''').result
 	assert names == ['dots: 1 points drawn out, more than 5 : 1'] and sides.count(12) == 1 and sides[-1] == 12 and kept
-	assert abs(areas[0] - 1) < 1e-9 and abs(areas[1] - 12 / 3.141592653589793 * 0.25) < 0.01  # of twelve corners on the circle
+	assert abs(areas[0] - 1) < 1e-9 and abs(areas[1] - 12 / 3.141592653589793 * 0.25) < 0.01  # area of twelve corners on the circle
 
 
 def test_coloursTitlesAndUnits(yade):

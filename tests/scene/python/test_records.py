@@ -63,7 +63,7 @@ def test_files_are_read_and_what_is_wrong_is_named(yade):
 
 
 def test_baseline_filter_and_step(yade):
-	"""What was put on the record is taken off; what filters and steps leave is what their formulas say."""
+	"""Baseline that was put on the record is taken off; filters and steps leave what their formulas say."""
 	yade(begin + '''
 from scenes import *
 clean = mpm.record(pairs, unit='m/s2', baseline=None)

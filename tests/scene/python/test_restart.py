@@ -131,7 +131,7 @@ assert not [name for name in os.listdir('.') if 'state' in name], os.listdir('.'
 
 
 def test_missing_folders_are_made(yade):
-	"""By all that writes files, without leaving anything else in them."""
+	"""All functions that write files make them, without leaving anything else in them."""
 	yade('''
 import os
 from scenes import *

@@ -33,7 +33,7 @@ def block(material, **fields):
 
 
 def strength(F):
-	"""Of the block with friction, uniaxial in plane strain."""
+	"""Strength of the block with friction, uniaxial in plane strain."""
 	angle = math.atan(math.tan(math.radians(20)) / F)
 	return 2 * 10e3 / F * math.cos(angle) / (1 - math.sin(angle))
 

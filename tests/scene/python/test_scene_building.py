@@ -109,7 +109,7 @@ report(flat=positions(flat), solid=positions(solid), flatHalf=flat[0].shape.half
 
 
 def assert_same_points(actual, expected):
-	"""As sets, to round-off."""
+	"""Compares sets of points, to round-off."""
 	assert len(actual) == len(expected)
 	distances = np.linalg.norm(np.array(actual)[:, None] - np.array(expected), axis=2)
 	assert distances.min(axis=0).max() < 1e-14

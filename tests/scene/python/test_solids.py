@@ -170,7 +170,7 @@ print(json.dumps([same, refused(mpm.terrain, grid('exchanged.asc', 'cellsize 1\\
 
 
 def test_facets_of_rock(yade):
-	"""Of a function, an array, a file and a terrain: a plane keeps its area and normal, corners lie on the surface, and soil rests on them with its weight."""
+	"""Facets of a function, an array, a file and a terrain: a plane keeps its area and normal, corners lie on the surface, and soil rests on them with its weight."""
 	result = yade('''
 import json
 import numpy as np

@@ -53,7 +53,7 @@ O.run(2, wait=True)
 out['again'] = settlement()
 print(json.dumps(out))
 ''').result
-	unit = 2000 * 10 * 3.875 / 2e7  # of a layer 1 m thick, at the middle of the highest points
+	unit = 2000 * 10 * 3.875 / 2e7  # settlement of a layer 1 m thick, at the middle of the highest points
 	assert result['ids'] == 8 and result['materials'] == ['fill', 'ground']
 	for i, (down, force) in enumerate(result['placed'], 1):
 		assert down == pytest.approx(unit * i / 4, rel=.006) and force == pytest.approx(4 + i / 4, rel=1e-6)

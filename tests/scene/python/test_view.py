@@ -42,7 +42,7 @@ def test_isRefused(outcomes, statement, exception, words):
 
 
 def unpacked(page):
-	"""What the page is given: data, and of each state columns (C, N) and arrays of bodies."""
+	"""Data of the page: data, and of each state columns (C, N) and arrays of bodies."""
 	data = json.loads(re.search(r'<script id="data"[^>]*>(.*?)</script>', page, re.DOTALL)[1].replace('<\\/', '</'))
 	array = lambda text, kind: np.frombuffer(zlib.decompress(base64.b64decode(text)), kind)
 	before, states = None, []
@@ -126,7 +126,7 @@ browser = shutil.which('chromium') or shutil.which('chromium-browser') or shutil
 
 @pytest.mark.skipif(not browser, reason='there is no Chromium: apt install chromium')
 def test_the_browser_draws_it(space, tmp_path):
-	"""Of a whole, a cut and a turned body: it draws something, less of it when cut, another face when turned, says what is in the middle, and plays."""
+	"""Pictures of a whole, a cut and a turned body: it draws something, less of it when cut, another face when turned, says what is in the middle, and plays."""
 	(pos, number), path = space
 
 	def shown(address):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What scripts/hosts needs is there; it takes too long to be run here. What YADE is built with is read from its files."""
+"""Needs of scripts/hosts, which takes too long to be run here. YADE's build settings are read from its files."""
 import json
 import subprocess
 
@@ -24,14 +24,14 @@ def test_packagesThatMakeRoots():
 
 
 def test_mirror():
-	"""Where apt gets packages is what the roots are made from."""
+	"""Source of apt's packages, from which the roots are made."""
 	text = (root / 'scripts/hosts').read_text()
 	mirror = text[text.index('mirror() {'):text.index('# Option of apt')]
 	assert said('bash', '-c', mirror + 'mirror').startswith('http')
 
 
 def test_scenesForTheOthers(yade):
-	"""What one release leaves to the others is loaded by itself here, and a difference is noticed."""
+	"""Saved scenes for the other releases are loaded here, and a difference is noticed."""
 	yade(root / 'scripts/lib/saved.py', yade.folder, 'here', 'save')
 	run = yade(root / 'scripts/lib/saved.py', yade.folder, 'here', 'load')
 	assert run.stdout.count('goes on and ends as where it was saved') == 2, str(run)
@@ -43,7 +43,7 @@ def test_scenesForTheOthers(yade):
 
 @pytest.fixture(scope='module')
 def configured(tmp_path_factory):
-	"""What CMake says of a YADE whose config.py has been changed."""
+	"""Output of CMake for a YADE whose config.py has been changed."""
 	tmp_path = tmp_path_factory.mktemp('host')
 	(tmp_path / 'CMakeLists.txt').write_text(f'cmake_minimum_required(VERSION 3.25)\nproject(host LANGUAGES CXX)\ninclude({root}/plugin/yade_api/host.cmake)\n')
 	folder = tmp_path / 'yade'

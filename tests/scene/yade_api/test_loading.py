@@ -53,7 +53,7 @@ def boostPython():
 
 @pytest.mark.parametrize('built', ['libboost_python39.so.1.67.0', 'libboost_python399.so.1.199.0'])
 def test_builtForAnotherPython(yade, complete, libraries, built):
-	"""As after an upgrade of the system, when the libraries of before may still be there, or may not."""
+	"""Case after an upgrade of the system, when the libraries of before may still be there, or may not."""
 	compiled((root / 'plugin/yade_api/loader.cpp').read_text(), libraries / 'libpkg_mpm.so', f'-DMPM_BOOST_PYTHON="{built}"')
 	run = yade(probe)
 	assert run.result == withoutPlugin
@@ -62,7 +62,7 @@ def test_builtForAnotherPython(yade, complete, libraries, built):
 
 @pytest.mark.parametrize('yadesFirst', [True, False])
 def test_twoBoostPythons(yade, complete, yadesFirst):
-	"""As with a module of another system that a script has loaded."""
+	"""Case of a module of another system that a script has loaded."""
 	other = compiled('', yade.folder / 'libboost_python39.so.1.67.0')
 	order = [boostPython(), str(other)] if yadesFirst else [str(other), boostPython()]
 	(yade.folder / 'two.py').write_text(f'import ctypes\nfor library in {order}: ctypes.CDLL(library)\n')
@@ -261,7 +261,7 @@ else:
 
 
 def test_overlayForOneUser(yade):
-	"""What scripts/setup installs without the rights of root."""
+	"""Overlay that scripts/setup installs without the rights of root."""
 	subprocess.run([root / 'scripts/setup', '--user'], check=True)
 	yade.command = str(build / 'overlay/bin/yade')
 	run = yade('from yade import mpm, config; import json; print(json.dumps([mpm.__file__, config.libDir, str(MpmGrid)]))')
@@ -273,7 +273,7 @@ def test_overlayForOneUser(yade):
 
 def test_setupThatChangesNothingIsQuick(yade):
 	subprocess.run([root / 'scripts/setup', '--user'], check=True)
-	spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])  # by the processor: others may want it too
+	spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])  # time of the processor: others may want it too
 	before = spent()
 	second = subprocess.run([root / 'scripts/setup', '--user'], check=True, capture_output=True, text=True)
 	assert spent() - before < 2
@@ -324,7 +324,7 @@ class OtherFolder:
 		return dict(args=arguments, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 	def setup(self, *options, **environment):
-		"""What scripts/setup says."""
+		"""Output of scripts/setup."""
 		command = self.command(self.folder / 'scripts/setup', *options)
 		command['env'] |= environment
 		ended = subprocess.run(**command)

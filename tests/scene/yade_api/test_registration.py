@@ -36,7 +36,7 @@ refusals = [
         ('ProbeMat', 'young', '1j', 'TypeError', 'ProbeMat.young = 1j: expected a number.'),
         ('ProbeMat', 'young', '10**400', 'TypeError', 'ProbeMat.young = 1'),
         ('ProbeMat', 'density', '0', 'ValueError', 'ProbeMat.density = 0.0 is not'),  # an attribute of YADE's own class
-        ('ProbeDerivedMat', 'young', '-1', 'ValueError', 'ProbeMat.young = -1.0 is not'),  # of the base class
+        ('ProbeDerivedMat', 'young', '-1', 'ValueError', 'ProbeMat.young = -1.0 is not'),  # base class
         ('ProbeDerivedMat', 'poisson', '0.5', 'ValueError', 'expected a number between -1 and 0.5, both excluded.'),
         ('ProbeDerivedMat', 'poisson', '-1', 'ValueError', 'ProbeDerivedMat.poisson = -1.0 is not'),
         ('ProbeDerivedMat', 'limit', '-1e-300', 'ValueError', 'expected a finite number >= 0.'),
