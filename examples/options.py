@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the examples read their options, and keep what they are compared with."""
+"""Options of the examples, and their comparisons with other results."""
 import argparse
 import csv
 import os
@@ -20,7 +20,7 @@ def readOptions(purpose, **options):
 	"""
 	name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
 	utils.readParamsFromTable(noTableOk=True, out=None, **{option: default for option, (default, _) in options.items()})
-	from yade.params import table  # what the line above has made
+	from yade.params import table  # module made by the line above
 	inBatch = '-' + utils.O.tags['description'] if utils.runningInBatch() else ''
 	parser = argparse.ArgumentParser(prog=name + '.py', description=purpose)
 	for option, (default, text) in options.items():
@@ -51,6 +51,6 @@ def compared(quantity, ours, theirs, source, unit=''):
 	:param source: whose it is, as 'Prandtl 1921'
 	:param unit: of both
 	"""
-	if not _file or not os.path.isdir(os.path.dirname(_file)): return  # by another script, which has run the scenes of this one
+	if not _file or not os.path.isdir(os.path.dirname(_file)): return  # called by another script, which has run the scenes of this one
 	with open(_file, 'a', newline='') as file:
 		csv.writer(file).writerow([quantity, f'{float(ours):.6g}', f'{float(theirs):.6g}', unit, source])

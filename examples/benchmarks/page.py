@@ -30,7 +30,7 @@ def write(folder, results):
 
 
 def machine():
-	"""What the times depend on."""
+	"""Machine that the times depend on."""
 	with open('/proc/cpuinfo') as file:
 		model = next(line.partition(':')[2].strip() for line in file if line.startswith('model name'))
 	describe = ['git', '-C', here, 'describe', '--always', '--dirty']
@@ -218,7 +218,7 @@ def largeStep(result):
 
 
 def _solves(rows):
-	"""Of each method its iterations, and the seconds to set up and to solve."""
+	"""Iterations of each method, and the seconds to set up and to solve."""
 	methods = [one['method'] for one in rows[0][1]]
 	heads = ['', 'unknowns', *(f'{method}: {what}' for method in methods for what in (['iterations'] if method != 'direct' else []) + ['seconds'])]
 	cells = []

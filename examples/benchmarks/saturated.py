@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a step of soil with water that flows costs, beside one without water, and how many iterations the block preconditioner takes as the grid is refined; the tables are on the page of measurements.
+"""Cost of a step of soil with water that flows, beside one without water, and how many iterations the block preconditioner takes as the grid is refined; the tables are on the page of measurements.
 
 	scripts/run -j 1 examples/benchmarks/saturated.py                                    plane, 4096 and 16384 points, with and without water
 	scripts/run -j 1 examples/benchmarks/saturated.py --dim 3 --cells 6,12,18 --steps 1   cubes, up to 46656 points, by multigrid

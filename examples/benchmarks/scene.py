@@ -11,8 +11,8 @@ from yade import mpm, pack, utils
 from yade.mpm.library import engine as library
 
 defaults = dict(
-        scene='slope', # of this script's functions
-        count=0, # of points or spheres
+        scene='slope', # function of this script
+        count=0, # number of points or spheres
         cellSize=.5, # [m]
         pointsPerCell=4, # per axis
         steps=None, # load steps to make of 40/cellSize, all if None
@@ -28,14 +28,14 @@ defaults = dict(
         recorder=False, # writes all material points after every step
         arrays=False, # reads all material points after every step
         distributed=False, # several processes divide the points
-        added=False, # by mpm.add
-        extent=[60, 20, 25], # of the block [cells]
+        added=False, # added by mpm.add
+        extent=[60, 20, 25], # size of the block [cells]
 )
 setting = SimpleNamespace(**defaults | json.loads(sys.argv[1]))
 
 
 def memory(entry='VmRSS'):
-	"""Of this process [bytes]."""
+	"""Memory of this process [bytes]."""
 	with open('/proc/self/status') as file:
 		return next(1024 * int(line.split()[1]) for line in file if line.startswith(entry + ':'))
 

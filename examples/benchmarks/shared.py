@@ -87,7 +87,7 @@ def pushed():
 
 
 def block(solver, region, strength=6e4, steps=4, end=1):
-	"""Of soil; the steps."""
+	"""Makes a block of soil; returns the steps."""
 	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))
 	O.bodies.append(mpm.fill(region, solver.grid, 2, 'soil'))
 	O.engines = [solver]
@@ -275,7 +275,7 @@ def refined():
 
 
 def change():
-	"""What is done to the points of the next scene between its steps."""
+	"""Changes the points of the next scene between its steps."""
 	solver, box = O.engines[-1], lambda low, high: pack.inAlignedBox((0, low, -1), (16, high, 1))
 	if O.iter == 1: O.bodies.append(mpm.fill(box(4, 8), solver.grid, 2, 'soil'))
 	if O.iter == 2: mpm.add(box(8, 14), solver, 2, 'soil')
@@ -297,7 +297,7 @@ def changing():
 
 
 def results(solver):
-	"""What the engine and its conditions tell of the last step: forces, one number after the other."""
+	"""Results of the last step from the engine and its conditions: forces, one number after the other."""
 	vectors = [*solver.reactions, *(load.resultant for load in solver.loads)]
 	for contact in solver.contacts:
 		vectors += [*contact.forces, *contact.torques]
@@ -307,7 +307,7 @@ def results(solver):
 
 
 def digest(solver):
-	"""Of all that a user reads of the points, and of what acts on them: a change of the program that is not meant to change results leaves every bit of them."""
+	"""Checksum of all that a user reads of the points, and of the conditions on them: a change of the program that is not meant to change results leaves every bit of them."""
 	columns = 'id', 'pos', 'pos0', 'halfSize', 'stress', 'defGrad', 'elasticStrain', 'volume', 'plasticStrain', 'material', 'velocity', 'acceleration'
 	points = mpm.arrays()
 	return hashlib.sha256(b''.join(points[name].tobytes() for name in columns) + np.array(results(solver)).tobytes()).hexdigest()
@@ -329,7 +329,7 @@ def effort(steps):
 
 
 def gathered(mine):
-	"""Of each process, in the first one."""
+	"""Values of each process, in the first one."""
 	if processes.count == 1: return [mine]
 	from mpi4py import MPI
 	return MPI.COMM_WORLD.gather(mine)

@@ -44,7 +44,7 @@ O.engines = [
                 gravity=(0, -10, 0),
                 boundaries=sides,
                 ghost=MpmGhost(factor=options.ghostFactor, scaling=options.scaling),
-                newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False),  # as in the paper; with them half the factorisations
+                newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False),  # same settings as in the paper; with predictor and reuseFactor half the factorisations
                 label='solver',
         ),
         PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),
@@ -66,7 +66,7 @@ for _ in range(50):
 height = l0 / s * (W + W * W / 2)
 top = (points['pos'] + points['halfSize'])[:, 1].max()
 
-reference = {  # of independent implementations of the same method: cells -> without ghost, paper's scaling, mesh-independent
+reference = {  # results of independent implementations of the same method: cells -> without ghost, paper's scaling, mesh-independent
         8: (1.29408206e-2, 9.64276631e-3, 1.12729015e-2),
         16: (3.65890602e-3, 3.01201409e-3, 3.35234265e-3),
         32: (1.04870581e-3, 9.86432725e-4, 1.01301122e-3),

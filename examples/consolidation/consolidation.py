@@ -30,7 +30,7 @@ options = readOptions('Consolidation.',
         skin=(30., "conductance of the column's drain"))
 E, k = 1e6, 1e-7  # Young's modulus [Pa], conductivity [m/s]
 kappa = k / 9810
-solves = []  # of all steps, for scripts/trade
+solves = []  # solves of all steps, for scripts/trade
 odd = np.pi * (2 * np.arange(200) + 1) / 2
 
 
@@ -99,7 +99,7 @@ def large():
 	curve = []
 	run(growing(1 / (kappa * E)), lambda now: curve.append((now * kappa * E, settlement(solver))))
 	T, found = np.array(curve).T
-	known = {.05: .038627, .2: .077177, .5: .117142, 1.: .143536}  # of a finer method for the equation in one dimension
+	known = {.05: .038627, .2: .077177, .5: .117142, 1.: .143536}  # results of a finer method for the equation in one dimension
 	for time, exact in known.items():
 		there = np.interp(time, T, found)
 		print(f'large: settlement {there:.5f} of the height at T = {time}, {100 * (there / exact - 1):+.2f} %')

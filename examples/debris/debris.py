@@ -31,7 +31,7 @@ options = readOptions('Debris on terrain, against a wall.',
         states=(25, 'states in the view for the browser'))
 began = time.time()
 density, g, slope, foot, wallAt = 1800., 9.81, np.radians(40), 4.5, 7.
-length, width, depth = 3., 2., 1.2  # of the debris along x, across, and above the bed [m]
+length, width, depth = 3., 2., 1.2  # size of the debris along x, across, and above the bed [m]
 h = options.cellSize
 
 
@@ -96,7 +96,7 @@ film.finish()
 t, debris, boulders = np.array(history).T
 points = mpm.arrays()
 x, z = points['pos'][:, 0], points['pos'][:, 2]
-smooth = np.convolve(np.pad(debris, 4, mode='edge'), np.ones(9) / 9, 'valid')  # of nine records
+smooth = np.convolve(np.pad(debris, 4, mode='edge'), np.ones(9) / 9, 'valid')  # mean of nine records
 isBeside = np.abs(points['pos'][:, 1]) > 3
 below = z < np.array([bed(*place) for place in points['pos'][:, :2]]) - h / 4
 work = solver.plotData()

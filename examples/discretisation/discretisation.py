@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How well mpm.discretisationError and mpm.stressError tell the error of scenes whose answer is known: those of the other examples, on grids of several cell sizes.
+"""Check of mpm.discretisationError and mpm.stressError on scenes whose answer is known: those of the other examples, on grids of several cell sizes.
 
 Every scene is the script of its example, run with one number of cells after the other; what it finds is kept in results/*.csv, and a run that was interrupted continues
 where it was. Of each cell size that has been halved and doubled the page (page.py) compares the estimate with the true error.

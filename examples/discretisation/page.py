@@ -25,7 +25,7 @@ def rows(folder, name):
 
 
 def ladders(folder):
-	"""By scene the value and the exact one, by number of cells."""
+	"""Value and exact value by scene, and by number of cells."""
 	found = {}
 	for row in rows(folder, 'values'):
 		found.setdefault(row['scene'], {})[int(row['cells'])] = tuple(float(row[name]) for name in ('value', 'exact'))
@@ -104,7 +104,7 @@ def stressTable(found):
 
 
 def counts(cases, found):
-	"""How many are within a factor of two."""
+	"""Number of estimates within a factor of two."""
 	ratio = lambda some, name='estimate': [case[name] / case['true'] for case in some]
 	known = [case for case in cases if scenes.scenes[case['scene']].against != scenes.smaller]
 	isKnown = lambda case: case in known

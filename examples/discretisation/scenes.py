@@ -28,7 +28,7 @@ def column(script, cells):
 
 
 def overExact(path, **more):
-	"""Of scripts that leave the relative error."""
+	"""Value over the exact one, for scripts that leave the relative error."""
 	return lambda script, cells: (1 + script(path, cells=cells, picture=0, **more)['error'], 1)
 
 
@@ -38,7 +38,7 @@ def overTheory(path, **more):
 
 
 def clay(script, cells):
-	"""With steps that go with the cells."""
+	"""Load of a footing on clay over the exact one, with steps that go with the cells."""
 	return 1 + script('penetration/penetration.py', scene='footing', cells=cells, depth=0.03, steps=4 * cells, picture=0)['error'], 1
 
 
@@ -111,12 +111,12 @@ def bar(script, cells):
 
 
 def trade(quantity, length=1, **more):
-	"""With cells over a length [m]."""
+	"""Value of a scene of examples/trade, with cells over a length [m]."""
 	return lambda script, cells: (script('trade/scenes.py', cells=cells / length, **more)[quantity], unknown)
 
 
 def sandStrip(phi, load='weight', points=1, isRough=False):
-	"""Of scripts/sand, in soil so stiff that the ground hardly moves before it fails."""
+	"""Strip of scripts/sand, in soil so stiff that the ground hardly moves before it fails."""
 	def run(script, cells):
 		from sand.strip import strip # needs YADE
 		found = strip(phi, isRough, load, cells=cells, points=points, settlement=2.5e-6, stiff=1e6, factor=1e-3, cohesion=1e-4, seconds=600)

@@ -64,7 +64,7 @@ def tube(pointsPerCell):
 
 
 def rings(script, cells):
-	"""What makes rings of so many cells over the inner radius; the script itself runs a footing."""
+	"""Rings with so many cells over the inner radius; the script itself runs a footing."""
 	return script('axisymmetric/axisymmetric.py', scene='rough', cells=4, steps=1, settlement=1e-4, tubeCells=cells)
 
 
@@ -92,7 +92,7 @@ def plasticRing(fBar):
 
 
 def strip(script, cells):
-	"""Of a half space; the block is 20 times as wide as half of the strip, and is compared near it."""
+	"""Stresses of a half space; the block is 20 times as wide as half of the strip, and is compared near it."""
 	found = script('surface_loads/surface_loads.py', cells=cells)
 	x, z = found['x'], found['z']
 	s, e = np.arctan2(x - found['b'], z), np.arctan2(x + found['b'], z)

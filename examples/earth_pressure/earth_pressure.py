@@ -98,7 +98,7 @@ def move(direction, psi):
 
 
 def exact(psi, direction):
-	"""By Rankine with the friction on slip planes of Davis."""
+	"""Coefficient by Rankine with the friction on slip planes of Davis."""
 	sine, dilation = np.sin(np.radians(phi)), np.sin(np.radians(psi))
 	slip = np.arctan(sine * np.cos(np.radians(psi)) / (1 - sine * dilation))
 	return ((1 + np.sin(slip)) / (1 - np.sin(slip)))**direction

@@ -66,7 +66,7 @@ def record():
 
 
 def inTime(frequency, solver):
-	"""What a step of the scheme makes of iw: velocity over displacement, and acceleration over displacement, in the balance of forces [1/s, 1/s2]."""
+	"""Values for iw in a step of the scheme: velocity over displacement, and acceleration over displacement, in the balance of forces [1/s, 1/s2]."""
 	if options.exactInTime: return 2j * np.pi * frequency, (2j * np.pi * frequency)**2
 	beta, gamma, m, f = schemeOf(solver)
 	z = np.exp(2j * np.pi * frequency * O.dt)
@@ -119,7 +119,7 @@ def shaken(quake, base, depth):
 
 
 def rigid(quake, f):
-	"""Of a point at the surface over one at the base: frequencies, found, closed form."""
+	"""Amplification of a point at the surface over one at the base: frequencies, found, closed form."""
 	solver, histories, depths = shaken(quake, 'rigid', layers[0][0] + layers[1][0])
 	f, found = histories.amplification(0, 1, 'velocity_x', f)
 	over = np.array([np.divide(*(propagated(depth, one, solver)[0] for depth in depths)) for one in f])
@@ -127,7 +127,7 @@ def rigid(quake, f):
 
 
 def compliant(quake, f):
-	"""Of a point at the surface over the motion of an outcrop."""
+	"""Amplification of a point at the surface over the motion of an outcrop."""
 	depth = sum(thickness for thickness, _, _ in layers)
 	solver, histories, depths = shaken(quake, 'compliant', depth)
 	f, found = histories.spectrum('velocity_x', f)

@@ -10,7 +10,7 @@ t = np.arange(0, seconds, 0.01)
 noise = np.fft.rfft(np.random.default_rng(4).standard_normal(t.size) * t / seconds * np.exp(-5 * t / seconds), 2 * t.size)
 w = np.fft.rfftfreq(2 * t.size, 0.01) / 2  # through an oscillator of 2 Hz (K. Kanai, H. Tajimi)
 a = np.fft.irfft(noise * (1 + 1.2j * w) / (1 - w**2 + 1.2j * w), 2 * t.size)[:t.size]
-quake = mpm.record(list(zip(t, 6 * a / np.abs(a).max())), unit='m/s2', filter=(0.4, 6))  # of an outcrop of the rock; or a file
+quake = mpm.record(list(zip(t, 6 * a / np.abs(a).max())), unit='m/s2', filter=(0.4, 6))  # motion of an outcrop of the rock; or a file
 O.materials.append(MpmElasticMat(young=5e9, poisson=0.3, density=2300, label='rock'))
 for name, cohesion, angle in ('firm', 300e3, 40), ('weathered', 8e3, 28):
 	O.materials.append(MpmMohrCoulombMat(young=6e8 if name == 'firm' else 2e8, poisson=0.3, density=2000, cohesion=cohesion, frictionAngle=radians(angle), label=name))

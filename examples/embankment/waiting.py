@@ -30,7 +30,7 @@ options = readOptions('An embankment on soft clay, in stages.',
         waiting=(90., 'time between two layers [days]'),
         safety=(1, '1: look for the factor of safety after each layer, 0: do not'))
 thickness, depth, width, crest, slope, g, day = 0.75, 6., 24., 4., 2., 10., 86400.
-lam, kappa, M, p1 = 0.08, 0.012, 1.0, 1e4  # of the clay: slopes in ln v - ln p, critical state ratio, reference pressure
+lam, kappa, M, p1 = 0.08, 0.012, 1.0, 1e4  # parameters of the clay: slopes in ln v - ln p, critical state ratio, reference pressure
 
 
 def scene():

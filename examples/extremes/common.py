@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What scenes of the stability atlas have in common."""
+"""Common parts of the scenes of the stability atlas."""
 from yade.wrapper import MpmGhost
 
 cellSize = 0.1 # [m] where it is not the parameter: at 1 m the two scalings would be the same

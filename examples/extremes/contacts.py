@@ -49,7 +49,7 @@ def plate(axis, at, thickness=20 * cellSize):
 
 
 class Pressed(Touched):
-	"""By a plate, to this part of its height, free on two sides; exact: force per area E / (1 - nu^2) ln(ratio) / ratio in plane strain.
+	"""Block pressed by a plate, to this part of its height, free on two sides; exact: force per area E / (1 - nu^2) ln(ratio) / ratio in plane strain.
 
 	:param thin: thickness of the plate over how far it moves in a step, None: a thick one
 	"""
@@ -65,7 +65,7 @@ class Pressed(Touched):
 
 
 class Dragged(Touched):
-	"""By a rough plate that presses it by a hundredth and goes aside by half a cell; exact: the ratio of both forces, once it slides."""
+	"""Block under a rough plate that presses it by a hundredth and goes aside by half a cell; exact: the ratio of both forces, once it slides."""
 
 	def __init__(self, dim, ghost, degrees):
 		super().__init__(dim, ghost, 10, block, contact=dict(friction=radians(degrees)), fixed='xyz'[:dim])

@@ -57,7 +57,7 @@ def hardeningSoil(phi=35., unloading=3., **more):
 
 
 def norSand(state=-.05, hardening=70.):
-	"""With a state parameter at a pressure of 10 kPa."""
+	"""NorSand with a state parameter at a pressure of 10 kPa."""
 	line = dict(criticalStateRatio=1.27, compressionIndex=.02, criticalVolume=1.9, criticalPressure=1e3)
 	return MpmNorSandMat(shearModulus=2e6, swellingIndex=.005, referencePressure=1e3, hardening=hardening, specificVolume=1.9 - .02 * np.log(10) + state, **line)
 

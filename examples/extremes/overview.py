@@ -42,7 +42,7 @@ def rangeOf(rows, name, ghost):
 
 
 def beyond(rows, name):
-	"""What happens with the default stabilisation where a value is not safe."""
+	"""Results with the default stabilisation where a value is not safe."""
 	outside = [row for key, row in rows.items() if key[0] == name and key[2] == default and kind(rows, name, default, key[3]) != 'safe']
 	found = [f'error {percent(max(wrong))}' if max(wrong) < 1 else 'wrong by any factor' for wrong in [[row['error'] for row in outside if page.ran(row) and row['error'] > .05]] if wrong]
 	if any(page.ran(row) and row['cuts'] > 0 for row in outside): found.append('steps cut')
@@ -83,7 +83,7 @@ def strip(panel, rows, name, ghost, top, height):
 
 
 def compared(rows):
-	"""Of the parameters that were driven to extremes with all three choices: how many, by choice those that are safe throughout and the part of cases that do not run."""
+	"""Number of parameters that were driven to extremes with all three choices; by choice, those that are safe throughout and the part of cases that do not run."""
 	names = [name for name in listed() if axes[name].ghosts == ghosts]
 	safe = {ghost: sum(rangeOf(rows, name, ghost) == 'all' for name in names) for ghost in ghosts}
 	failed = {ghost: [not page.ran(row) for key, row in rows.items() if key[0] in names and key[2] == ghost] for ghost in ghosts}

@@ -89,7 +89,7 @@ def _run(values):
 
 
 def outside(rows, name):
-	"""What the user sees where it does not run."""
+	"""Message for the user where it does not run."""
 	kinds = {}
 	for key, row in rows.items():
 		if key[0] == name and not ran(row): kinds[row['failure']] = kinds.get(row['failure'], 0) + 1

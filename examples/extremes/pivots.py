@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the rule that declares a matrix singular (plugin/core/solvers/linear_solver.cpp) would have to know: the last pivot, and how well the system can be solved."""
+"""Data for the rule that declares a matrix singular (plugin/core/solvers/linear_solver.cpp): the last pivot, and how well the system can be solved."""
 from math import nan
 
 import numpy as np

@@ -270,7 +270,7 @@ def scene(axis, dim, ghost, value):
 
 
 conditionOfSteps = 'overlap', 'factor', 'columnFactor', 'slopeFactor' # axes for which the condition number is estimated after each step
-kinds = [ # of failures, by what the exception says
+kinds = [ # kinds of failures, by words of the exception
         ('nothing restrains', 'refused: mechanism'),
         ('in the same place', 'refused: points in the same place'),
         ('singular', 'singular'),

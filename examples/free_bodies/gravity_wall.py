@@ -47,12 +47,12 @@ solver = MpmImplicitEngine(
         grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], loadCurve=[(0, 1)], boundaries=held, contacts=[contact], loads=[load], fBar=True, newton=MpmNewton(maxIterations=40, minStep=1 / 16), verbosity=0)
 O.engines, O.dt = [solver], 1
 points = mpm.arrays()['pos']
-vertical = -weight * (H - points[:, 1]) * (points[:, 0] < 0)  # as if the wall were poured in front of level ground
+vertical = -weight * (H - points[:, 1]) * (points[:, 0] < 0)  # stress as if the wall were poured in front of level ground
 mpm.assign(stress=vertical[:, None, None] * np.array([np.diag([K, 1, K]) for K in np.where(points[:, 1] > 0, 0.5, 0.25)]))
 O.step()
 force, own = contact.forces[0], 2400 * 10 * B * H
 wall.dynamic, O.dt = True, 0.05
-for part in np.linspace(1, 0, 21)[1:]:  # what held it is let go, and its weight comes
+for part in np.linspace(1, 0, 21)[1:]:  # its support is let go, and its weight comes
 	O.forces.setPermF(wall.id, (-part * force[0], part * (own - force[1]), 0))
 	O.step()
 

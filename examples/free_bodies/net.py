@@ -34,7 +34,7 @@ before = [
         InteractionLoop([Ig2_GridNode_GridNode_GridNodeGeom6D(), Ig2_Sphere_PFacet_ScGridCoGeom()], [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True), Ip2_FrictMat_FrictMat_FrictPhys()],
                         [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(), Law2_ScGridCoGeom_FrictPhys_CundallStrack()])
 ]
-O.engines = before  # whose laws connect the nodes
+O.engines = before  # engines whose laws connect the nodes
 nodes = {}
 for i in range(n):
 	for j in range(n):

@@ -29,7 +29,7 @@ options = readOptions('Grains poured onto soil.',
         stiffness=(20., 'of the contact, over E / h'))
 began = time.time()
 length, width, depth, h, radius = 1.4, 0.6, 0.2, options.cell, 0.05
-speed, share, above = 0.25, 0.12, 0.02  # of the plough [m/s], radius of its spheres [m], height at which it waits
+speed, share, above = 0.25, 0.12, 0.02  # speed of the plough [m/s], radius of its spheres [m], height at which it waits
 
 O.materials.append(MpmVonMisesMat(young=2e6, poisson=0.3, density=1600, yieldStress=np.sqrt(2) * 1e4, label='ground'))  # clay, c_u = 10 kPa
 O.materials.append(FrictMat(young=1e6, poisson=0.3, density=2600, frictionAngle=radians(27), label='grain'))

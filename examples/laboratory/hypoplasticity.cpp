@@ -102,7 +102,7 @@ extern "C" void umat_(
 	for (int i = 0; i < 6; ++i)
 		stress[i] = after[i] / (i < 3 ? 1 : root);
 
-	Matrix D; // by differences, but at rest, where the law has a corner and its linear part lies in the middle
+	Matrix D; // derivative by differences, but at rest, where the law has a corner and its linear part lies in the middle
 	Tensor other;
 	if (size < 1e-12) sand.stiffness(before, voids, D, other);
 	for (int c = 0; c < 6 && size >= 1e-12; ++c) {

@@ -16,7 +16,7 @@ os.makedirs(out, exist_ok=True)
 source, library = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), 'hypoplasticity.cpp'), os.path.join(out, 'hypoplasticity.so')
 subprocess.run(['g++', '-O2', '-shared', '-fPIC', '-I', '/usr/include/eigen3', '-o', library, source], check=True)
 
-phi, hardness, exponent, ed0, ec0, ei0 = radians(33), 1.5e9, 0.28, 0.55, 0.95, 1.05  # of Hochstetten sand
+phi, hardness, exponent, ed0, ec0, ei0 = radians(33), 1.5e9, 0.28, 0.55, 0.95, 1.05  # parameters of Hochstetten sand
 fall = lambda p: np.exp(-(3 * p / hardness)**exponent)
 sand = lambda e: MpmUserMat(density=1600, young=50e6, poisson=0.2, library=library, parameters=[phi, hardness, exponent, ed0, ec0, ei0, 0.25, 1, 1], stateVariables=[e], reentrant=True)
 

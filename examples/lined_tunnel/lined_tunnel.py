@@ -31,7 +31,7 @@ O.run(4, wait=True)  # contracts
 points = mpm.arrays()
 row = lambda y: np.flatnonzero(np.abs(points['pos0'][:, 1] + y) < h / 4)
 upper, lower = ((points['pos0'] - points['pos'])[row(k * h)][np.argsort(points['pos0'][row(k * h), 0]), 1] for k in (.25, .75))
-trough, lost = (1.5 * upper - 0.5 * lower).sum() * h, options.volumeLoss * np.pi * R**2  # of both halves, at the surface
+trough, lost = (1.5 * upper - 0.5 * lower).sum() * h, options.volumeLoss * np.pi * R**2  # volumes of both halves, at the surface
 print(f'trough {trough:.4f} m2, volume loss {lost:.4f} m2 ({100 * (trough / lost - 1):+.2f} %); it is {1e3 * upper[0]:.1f} mm deep')
 compared(f'volume of the trough, cells of {h:g} m, nu = {options.poisson:g}', trough, lost, 'volume loss', 'm2')
 figure, axes = plt.subplots(1, 3, figsize=(12, 4.5), layout='constrained')

@@ -27,7 +27,7 @@ O.run(1, wait=True)
 mpm.stages.excavate(lambda x, pad=0: x[0] < R and x[1] > -dug, steps=4)
 O.run(4, wait=True)
 depths, half = -np.array([x[1] for x in lining.vertices]), dug / 2
-found = np.interp(half, (depths[1:] + depths[:-1]) / 2, lining.hoopForces)  # of the segments
+found = np.interp(half, (depths[1:] + depths[:-1]) / 2, lining.hoopForces)  # force at the centres of the segments
 soil, ring = young / (1 + nu) / R, lining.axialStiffness * (1 - of**2) / R**2
 expected = -options.K0 * density * 10 * half * R / (1 + soil / ring)
 print(f'hoop force at half of what is dug {found / 1e3:.1f} kN/m, of a tube {expected / 1e3:.1f} kN/m ({100 * (found / expected - 1):+.1f} %); largest moment {max(map(abs, lining.moments)) / 1e3:.2f} kN m/m')

@@ -24,7 +24,7 @@ from scenes import scenes
 options = readOptions('Load steps chosen by their error.',
         scenes=('', 'names of scenes with commas between; all of them if empty'),
         most=(1000, 'number of fixed steps that a run has at most, but for the reference'))
-solves = []  # what a PyRunner of the scenes of examples/trade appends to
+solves = []  # list that a PyRunner of the scenes of examples/trade appends to
 
 
 def runScript(path, tolerance, arguments):

@@ -18,7 +18,7 @@ parts = 0.04, 0.02, 0.01, 0.005, 0.002  # stepTolerance over the displacement at
 
 
 def runs(folder):
-	"""By scene the runs that have come to an end, those with fixed steps and those with a tolerance."""
+	"""Runs by scene that have come to an end, those with fixed steps and those with a tolerance."""
 	with open(os.path.join(folder, 'results', 'runs.csv'), newline='') as file:
 		rows = [{name: pages.number(text) for name, text in row.items()} for row in csv.DictReader(file)]
 	ended = [row for row in rows if row['error'] == row['error']]
@@ -26,7 +26,7 @@ def runs(folder):
 
 
 def cheapest(fixed, error):
-	"""That of the fixed numbers of steps whose error is no larger, or None."""
+	"""Run with the cheapest fixed number of steps whose error is no larger, or None."""
 	return min((row for row in fixed if row['error'] <= error), key=lambda row: row['solves'], default=None)
 
 
@@ -49,7 +49,7 @@ def picture(found, path):
 
 
 def comparison(found):
-	"""What each tolerance comes to, beside the cheapest fixed number of steps with the same error."""
+	"""Cost of each tolerance, beside the cheapest fixed number of steps with the same error."""
 	lines = []
 	for name, (fixed, chosen) in found.items():
 		for row in chosen:

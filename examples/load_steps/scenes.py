@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is run with how many load steps."""
+"""Scenes to run, and their numbers of load steps."""
 from dataclasses import dataclass
 
 

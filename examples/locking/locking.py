@@ -128,7 +128,7 @@ def judgeBeam(_, tip):
 
 
 def run(steps, row):
-	"""What row() gives after each step, and what the steps took: seconds of all and of the assembly."""
+	"""Rows of row() after each step, and the cost of the steps: seconds of all and of the assembly."""
 	history, effort = [(0, 0)], np.zeros(2)
 	try:
 		for _ in range(steps):

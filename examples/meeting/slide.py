@@ -48,7 +48,7 @@ O.engines = [
 O.dt = options.stepSize
 acceleration = 9.81 * (sin(slope) - tan(friction) * cos(slope))
 arrival = sqrt(2 * way / acceleration)
-cut = (4.375 + way, 0.75)  # of the dam, a cell above its foot
+cut = (4.375 + way, 0.75)  # position of the cut through the dam, a cell above its foot
 times, forces, moments = [], [], []
 figure, pictures = plt.subplots(4, 1, figsize=(8, 9), height_ratios=[1, 1, 1, 1.2], layout='constrained')
 when = [0.6 * arrival, arrival + 0.2, options.end - O.dt]

@@ -12,7 +12,7 @@ from yade.wrapper import *
 
 O = Omega()
 
-young, adhesion, density = 2e7, 8e4, 2500.  # of grains: stiffness and strength of contacts [Pa], density [kg/m3]
+young, adhesion, density = 2e7, 8e4, 2500.  # grains: stiffness and strength of contacts [Pa], density [kg/m3]
 stretch = 0.2  # mean diameters by which a contact can be pulled apart before it breaks
 spread = 0.3  # radii are within this part of the mean
 compaction = 5e3  # pressure [Pa] under which grains are packed
@@ -59,7 +59,7 @@ class Layer:
 
 	def __init__(self, width, height, diameter, seed=1):
 		self.diameter = self.thickness = diameter
-		self.depth = 4 * diameter # of the periodic cell
+		self.depth = 4 * diameter # depth of the periodic cell
 		O.reset()
 		O.periodic = True
 		_materials()
@@ -138,7 +138,7 @@ def cutScene(layer, height, length, front):
 	diameter, width = layer.diameter, layer.width
 	O.reset()
 	_materials()
-	O.dt = 0.4 * np.sqrt(density / young) * radius.min()  # that of utils.PWaveTimeStep
+	O.dt = 0.4 * np.sqrt(density / young) * radius.min()  # time step of utils.PWaveTimeStep
 	base = y < diameter
 	for shift in np.arange(0, front, width):
 		O.bodies.append([_grain((i + shift, j - diameter, 0), r, moves=False) for i, j, r in zip(x[base], y[base], radius[base]) if i + shift < front])
@@ -155,7 +155,7 @@ def cutScene(layer, height, length, front):
 
 
 def grainArrays(thickness):
-	"""Of the grains that move, as mpm.arrays() of points: ``pos``, ``pos0``, ``halfSize``, and ``force``, sigma_yy times volume [N m].
+	"""Arrays of the grains that move, as mpm.arrays() of points: ``pos``, ``pos0``, ``halfSize``, and ``force``, sigma_yy times volume [N m].
 
 	Forces are per metre of thickness.
 	"""

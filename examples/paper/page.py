@@ -150,12 +150,12 @@ def completed(row):
 
 
 def meanIterations(row):
-	"""With two digits as the paper prints it, a first pass without solve included; halves rounded up: 219 in 40 steps are 5.48."""
+	"""Mean with two digits as the paper prints it, a first pass without solve included; halves rounded up: 219 in 40 steps are 5.48."""
 	return math.floor(100 * (row['meanIterations'] + 1) + 0.5 + 1e-9) / 100
 
 
 def outcome(row):
-	"""As the paper prints it: mean and largest number of iterations."""
+	"""Outcome in the form of the paper: mean and largest number of iterations."""
 	if completed(row): return f"{meanIterations(row):.2f} ({row['maxIterations'] + 1:g})"
 	return f"fails after step {row['completed']:g}"
 
@@ -224,7 +224,7 @@ paper no step is cut, there is no line search, and 20 solves are allowed. With g
 
 
 def toleranceTable():
-	"""What a stricter norm would make of the iterations with ghost stabilisation."""
+	"""Effect of a stricter norm on the iterations with ghost stabilisation."""
 	cell = {(row['cellSize'], row['pointsPerCell'], row['tolerance']): outcome(row | dict(completed=1, steps=1)) for row in results('table1-tolerance')}
 	if not cell: return ''
 	cases = sorted({key[:2] for key in cell}, key=lambda case: (-case[0], case[1]))

@@ -8,7 +8,7 @@ from common import *
 options = commandLine(__doc__)
 cells = 16
 stabilisations = {'none': dict(factor=0), 'mesh-independent': dict(scaling='mesh-independent'), 'paper': dict(scaling='paper')}
-worst = max([i / 100 for i in range(101)], key=lambda offset: block(offset).conditionNumber()) # of figure 2, whose other half mirrors this one
+worst = max([i / 100 for i in range(101)], key=lambda offset: block(offset).conditionNumber()) # worst offset for figure 2, whose other half mirrors this one
 
 results = Results(options.out, 'scaling', ['cellSize', 'ghost'], ['offset', 'conditionNumber', 'error', 'failure'])
 for cellSize in [10.**i for i in range(-3, 4)]:

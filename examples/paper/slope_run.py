@@ -15,7 +15,7 @@ def smoothing(position, radius):
 		away = (position - centre) / radius
 		squared = (away**2).sum(axis=1)
 		near = np.flatnonzero(squared < 1)
-		root = 1 - squared[near] # of the weight
+		root = 1 - squared[near] # square root of the weight
 		linear = np.column_stack([np.ones(len(near)), away[near]])
 		matrix[i, near] = np.linalg.pinv(linear * root[:, None])[0] * root
 	return matrix
@@ -44,7 +44,7 @@ class FaceStress:
 
 
 def saveState(path, face):
-	"""What the pictures show: corners of the deformed domains [m] and sigma_xy [Pa] of the last converged state, and of the face for all steps."""
+	"""Saves data of the pictures: corners of the deformed domains [m] and sigma_xy [Pa] of the last converged state, and of the face for all steps."""
 	points = mpm.arrays()
 	box = points['halfSize0'][:, None, :] * np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)])
 	corners = points['pos'][:, None, :] + np.einsum('pij,pcj->pci', points['defGrad'], box)

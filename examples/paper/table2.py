@@ -7,5 +7,5 @@ from slope_run import *
 
 options = commandLine(__doc__)
 for factor in 0., 1e-8, 1e-6, 1e-4, 1e-2:
-	for lineSearchTrials in 0, 5: # as in the paper, and the default of the plugin
+	for lineSearchTrials in 0, 5: # number in the paper, and the default of the plugin
 		runSlope(options.out, 1., 3, factor, lineSearchTrials)

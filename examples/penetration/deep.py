@@ -39,7 +39,7 @@ if not (isCone or isPile or isBar): sys.exit(f"deep.py: there is no scene '{opti
 depth = (options.depth or (10 if isCone else 0.4 if isPile else 2)) * R
 rough = options.rough if options.rough >= 0 else 0.5 * isPile
 pressure = (15 if isBar else 5) * cu
-length = 10 * R  # of the pile
+length = 10 * R  # length of the pile
 began, solves = time.time(), []
 
 

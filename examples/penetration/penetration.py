@@ -92,13 +92,13 @@ def footing():
 	return shallow / (2 + np.pi) - 1, 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 
 
-E, nu, R = 1e6, 0.3, 1.  # of the half-space, and of the Sphere
+E, nu, R = 1e6, 0.3, 1.  # constants of the half-space, and radius of the Sphere
 stiffness = E / (1 - nu**2)
 a = 0.1 * R
 
 
 def sinking(F, size):
-	"""What a half-space gives way at the depth *size* below a force (Boussinesq): the base of the box does not."""
+	"""Displacement of a half-space at the depth *size* below a force (Boussinesq): the base of the box does not move."""
 	return F * (1 + nu) * (3 - 2 * nu) / (2 * np.pi * E * size)
 
 
@@ -117,7 +117,7 @@ def free():
 	sides += [MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, size, -inf), fix='y')]
 	soil = MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], iterPeriod=options.every, verbosity=0, label='solver')
 	O.engines = [ForceResetter(), soil, NewtonIntegrator(gravity=(0, 0, -10), damping=0.5)]
-	O.dt = 0.04 * a / np.sqrt(15 * R)  # of the period over 2 pi
+	O.dt = 0.04 * a / np.sqrt(15 * R)  # part of the period over 2 pi
 	print('time [s]  sunk [m]  force over weight')
 	for _ in range(options.steps or 80):
 		O.run(options.every, wait=True)
@@ -165,7 +165,7 @@ def compareLine(F, R, stiffness, h):
 	x, down = pos[:, 0], -force[:, 1]
 	between = np.concatenate([[0], (x[1:] + x[:-1]) / 2, x[-1:] + h / 8])  # places on the body are as wide
 	pressure = np.diff(np.interp(np.arange(0, x[-1] + h, h), between, np.concatenate([[0], np.cumsum(down)]))) / h
-	width = np.sqrt(4 * (2 * down * x**2).sum() / F)  # of the half ellipse with the same second moment
+	width = np.sqrt(4 * (2 * down * x**2).sum() / F)  # width of the half ellipse with the same second moment
 	print(f'F = {F:.0f} N/m: half width {width / h:.2f} h, Hertz {half / h:.2f} h ({100 * (width / half - 1):+.1f} %)')
 	compared(f'half width of the contact of a cylinder, {options.cells} cells', width / h, half / h, 'Hertz 1882', 'h')
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')

@@ -48,7 +48,7 @@ def makeGrains(height):
 	O.materials.append(FrictMat(young=4e6, poisson=0.3, frictionAngle=0, label='glass'))
 	size, random = L / options.grains, np.random.default_rng(1)
 	rough = [utils.sphere((x, -size / 2, 0), size / 2, material='grain', fixed=True) for x in np.arange(-size, 5 * L + 6 * height, 0.8 * size)]
-	number = int(0.84 * 1.02 * L * height / (np.pi / 4 * size**2 * 1.01))  # of disks in a loose packing
+	number = int(0.84 * 1.02 * L * height / (np.pi / 4 * size**2 * 1.01))  # number of disks in a loose packing
 	columns = int(L / (1.3 * size))
 	ids = []
 	for i in range(number):

@@ -28,7 +28,7 @@ for level in np.arange(1.5, options.depth + 1e-9, h / 2):
 	x, y = np.array(wall.vertices)[::-1, :2].T
 	mpm.stages.excavate(lambda at, pad=0: at[1] > -level and at[0] > np.interp(at[1], y, x), steps=4)
 	O.run(4, wait=True)
-	below = level / (1 / Ka - 1)  # where the shear force is zero
+	below = level / (1 / Ka - 1)  # depth at which the shear force is zero
 	byHand = gamma * (Ka * (level + below)**3 - below**3 / Ka) / 6
 	print(f'dug out {level:.3f} m: head moves {1e3 * wall.vertices[0][0]:.1f} mm, moment {max(wall.moments) / 1e3:.1f} kN m, by Blum {byHand / 1e3:.1f} kN m')
 	if abs(level - options.seen) < 1e-9:

@@ -54,7 +54,7 @@ O.engines = [
                 ],
                 domains=options.domains,
                 ghost=MpmGhost(factor=options.ghostFactor),
-                newton=MpmNewton(tolerance=1e-6, maxIterations=20, predictor=False, reuseFactor=False),  # as in the paper; with them half the factorisations
+                newton=MpmNewton(tolerance=1e-6, maxIterations=20, predictor=False, reuseFactor=False),  # same settings as in the paper; with predictor and reuseFactor half the factorisations
                 label='solver',
         ),
         PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),

@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What it gains to split material points that outgrow half a cell: the same scenes with and without it, and with more points from the beginning.
+"""Gain of splitting material points that outgrow half a cell: the same scenes with and without it, and with more points from the beginning.
 
 	hang       an elastic bar is stretched by its own weight, to twice its length and more at the top; closed form
 	press      an elastic block between smooth plates is pressed to .15 of its height and grows aside; closed form
@@ -112,7 +112,7 @@ def footing(points, maxSplits):
 
 
 def collapse(points, maxSplits):
-	"""How far the front of the cut has moved at the stability number 6 [m]."""
+	"""Displacement of the front of the cut at the stability number 6 [m]."""
 	H, L, cu, density, end = 5., 10., 25e3, 2000, 6.
 	O.materials.append(MpmVonMisesMat(young=500 * cu, poisson=0.3, density=density, yieldStress=np.sqrt(2) * cu, label='clay'))
 	grid = MpmGrid(cellSize=0.25)
@@ -125,7 +125,7 @@ def collapse(points, maxSplits):
 
 
 def runout(points, maxSplits, aspect):
-	"""Where the sand has come to rest, from the face of the column, over its width; experiments: 1.2 a below a = 1.8, 1.9 a^(2/3) from 2.8 on, in between interpolated (G. Lube and others 2005)."""
+	"""Run-out of the sand, from the face of the column, over its width; experiments: 1.2 a below a = 1.8, 1.9 a^(2/3) from 2.8 on, in between interpolated (G. Lube and others 2005)."""
 	L, g, density = 1., 10., 1600.
 	height = aspect * L
 	O.materials.append(MpmMohrCoulombMat(young=500 * density * g * L, poisson=0.3, density=density, cohesion=1e-3 * density * g * L, frictionAngle=np.arcsin(np.tan(radians(31))), label='sand'))

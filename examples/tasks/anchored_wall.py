@@ -24,5 +24,5 @@ for quantity, size in dict(axialForce=1, shearForce=2, moment=3).items(): mpm.di
 mpm.diagram(anchor, 'axialForce', axes).figure.savefig('out/anchored_wall.png')
 Ka, Kp = np.cos(phi)**2 / (1 + np.sqrt(np.sin(phi + delta) * np.sin(phi) / np.cos(delta)))**2, np.tan(np.pi / 4 + phi / 2)**2
 active, less = Ka * gamma * foot**2 / 2, 2 * c * np.sqrt(Ka) * foot
-needed = (active * (2 / 3 * foot - head) - less * (foot / 2 - head)) / (depth + 2 / 3 * (foot - depth) - head)  # of the earth before the foot
+needed = (active * (2 / 3 * foot - head) - less * (foot / 2 - head)) / (depth + 2 / 3 * (foot - depth) - head)  # resistance of the earth before the foot
 print(f'anchored wall: anchor = {anchor.axialForces[0] / 1e3:.1f} kN, by hand {(active - less - needed) * np.hypot(7, 2.5) / 7 / 1e3:.1f} kN')

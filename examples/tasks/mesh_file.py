@@ -4,7 +4,7 @@
 import gts
 from yade import mpm
 a, b = ([gts.Vertex(x, y, z) for x, y in ((0, 0), (4, 0), (1, 4), (0, 4))] for z in (0, 2))
-with open('dam.stl', 'w') as file:  # as a CAD program would write it
+with open('dam.stl', 'w') as file:  # file as a CAD program would write it
 	print('solid dam', file=file)
 	quads = [(a[3], a[2], a[1], a[0]), tuple(b)] + [(a[i], a[(i + 1) % 4], b[(i + 1) % 4], b[i]) for i in range(4)]
 	for p, q, r, s in quads:

@@ -8,7 +8,7 @@ arc = [(R * np.cos(a), R * np.sin(a)) for a in np.linspace(np.pi / 2, 0, 33)]
 O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, label='ground'))
 grid = MpmGrid(cellSize=R / cells)
 O.bodies.append(mpm.fill(mpm.polygon(arc + [(size, 0), (size, size), (0, size)]), grid, 2, 'ground'))  # a quarter
-mpm.assign(stress=[-p0 * np.eye(3)] * len(O.bodies))  # as before the tunnel was there
+mpm.assign(stress=[-p0 * np.eye(3)] * len(O.bodies))  # stress before the tunnel was there
 lining = MpmTraction(surface=arc, pressure=p0)
 low, high = MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')  # symmetry
 far = [MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, size, -inf), fix='y')]

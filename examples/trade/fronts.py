@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the runs of a plan say: errors, the front of time and error, and what each knob is worth."""
+"""Results of the runs of a plan: errors, the front of time and error, and the worth of each knob."""
 import csv
 import math
 import os
@@ -14,7 +14,7 @@ class Run:
 	memory: float # [MiB]
 	solves: float
 	error: float # the largest of the plan's errors
-	errors: dict # by name
+	errors: dict # errors by name
 	failure: str
 
 
@@ -50,7 +50,7 @@ def _run(row, plan, reference):
 
 
 def judged(row):
-	"""Of an estimate and the run after it: told over measured time of a step, and whether that lay inside the range told."""
+	"""Estimate and the run after it: told over measured time of a step, and whether that lay inside the range told."""
 	fastest, usual, slowest, measured = (float(row[name]) for name in ('fastest', 'usual', 'slowest', 'measuredTime'))
 	return usual / measured, fastest <= measured <= slowest
 
@@ -75,7 +75,7 @@ def cheapest(runs, error):
 
 
 def moves(runs, name, values):
-	"""What a move of one parameter from each value to the next does, all else equal.
+	"""Effects of a move of one parameter from each value to the next, all else equal.
 
 	:return: rows (from, to, pairs of runs, factor on the error, factor on the time), factors being geometric means
 	"""

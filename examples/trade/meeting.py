@@ -30,7 +30,7 @@ body = grid.bodies[1]
 ends = np.array(body.vertices)[:, :2][np.array(body.pieces)]
 x, length, pressure = ends[:, :, 0].mean(1), np.hypot(*(ends[:, 1] - ends[:, 0]).T), np.array(contact.pressures)
 force = contact.force[1]
-a = sqrt(8 * force * (1 - nu**2) / (pi * E))  # of two cylinders of the radius 1 m: each has the modulus E / (1 - nu^2), so that both have half of it, at the radius of 1/2 m
+a = sqrt(8 * force * (1 - nu**2) / (pi * E))  # half width of the contact of two cylinders of the radius 1 m: each has the modulus E / (1 - nu^2), so that both have half of it, at the radius of 1/2 m
 widthError = abs(sqrt(4 * (length * pressure @ x**2) / (length @ pressure)) / a - 1)
 inner = (pressure >= 0) & (x < a / 2) & (np.abs(ends[:, :, 1].mean(1)) < depth / 2) & (x > 1e-6)
 shape = np.mean(np.sqrt(1 - np.linspace(0, 0.5, 50)**2))

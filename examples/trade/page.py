@@ -51,7 +51,7 @@ def picture(name, plan, runs, front, uncertainty, path):
 
 
 def errorLabel(plan):
-	"""Of what the error is."""
+	"""Label of the error, with its quantity."""
 	what = [plan.words.get(name, name) for name in plan.errors + plan.quantities]
 	return f"relative error of the {' and '.join(what)} [-]" + (',\nthe largest of them' if len(what) > 1 else '')
 
@@ -138,7 +138,7 @@ def threads(runs):
 
 
 def estimates(folder):
-	"""What mpm.advise said of scenes, and what they were."""
+	"""Estimates of mpm.advise for scenes, and the measured values."""
 	with open(os.path.join(folder, 'results', 'estimates.csv'), newline='') as file:
 		rows = [row for row in csv.DictReader(file) if not row['failure']]
 	lines, within, inRange = [], 0, 0

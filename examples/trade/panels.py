@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the tables of examples/trade and of other examples say of error against cost: a panel for each scene, plain Python."""
+"""Panels of error against cost from the tables of examples/trade and of other examples: one for each scene, plain Python."""
 import csv
 import os
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from pages import number
 from plans import plans
 
 here = os.path.dirname(os.path.abspath(__file__))
-letters = dict(cells='n', pointsPerCell='p', steps='s', stiffness='k', tolerance='b', fBar='') # what speaks for itself has none
+letters = dict(cells='n', pointsPerCell='p', steps='s', stiffness='k', tolerance='b', fBar='') # settings that speak for themselves have no letter
 
 
 @dataclass
@@ -47,7 +47,7 @@ class Panel:
 		return found
 
 	def worthwhile(self):
-		"""Of the front the first point, those that take a quarter and more off the error, and none beyond what is known."""
+		"""First point of the front, those that take a quarter and more off the error, and none beyond what is known."""
 		found = []
 		for point in self.front():
 			if not found or point.error < .72 * found[-1].error and found[-1].error > self.uncertainty: found.append(point)
@@ -59,7 +59,7 @@ class Panel:
 
 
 def said(setting):
-	"""Of a setting, as 'n8 s20'."""
+	"""Text of a setting, as 'n8 s20'."""
 	return ' '.join(f'{name}{value}' if len(name) < 2 else f'{name} {value}' for name, value in setting.items())
 
 
@@ -71,7 +71,7 @@ def cost(panel, point):
 
 
 def rows(*path):
-	"""Of a table of another example, numbers converted."""
+	"""Rows of a table of another example, numbers converted."""
 	with open(os.path.join(here, '..', *path), newline='') as file:
 		return [{name: number(text) for name, text in row.items()} for row in csv.DictReader(file)]
 
@@ -115,7 +115,7 @@ ladders = { # quantities that errors are of, and what examples/discretisation ca
 
 
 def remaining(name, quantity, ladder):
-	"""How far what errors are against (one, or the reference run) is from the value on smaller cells, taken on by its last change."""
+	"""Distance of the reference of errors (one, or the reference run) from the value on smaller cells, taken on by its last change."""
 	values = {row['cells']: row['value'] for row in rows('discretisation', 'results', 'values.csv') if row['scene'] == ladder}
 	most = max(values)
 	reference = plans[name].reference

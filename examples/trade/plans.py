@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Which settings of which scenes scripts/trade runs."""
+"""Plans of scripts/trade: scenes and their settings."""
 import itertools
 import os
 from dataclasses import dataclass, field, replace

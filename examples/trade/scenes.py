@@ -26,7 +26,7 @@ from slopes import weakLayerSlope
 
 rollers = {'left': MpmBoundary(max=(0, inf, inf), fix='x'), 'floor': MpmBoundary(max=(inf, 0, inf), fix='y'), 'base': MpmBoundary(max=(inf, 0, inf), fix='xy'),
            'clamp': MpmBoundary(max=(0, inf, inf), fix='xy')}
-solves, advised, found = [], {}, {} # what mpm.advise said of the run, and what it was
+solves, advised, found = [], {}, {} # estimates of mpm.advise for the run, and the measured values
 
 
 def peakMemory():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the tables say in short: every number of the text is computed from them."""
+"""Summary of the tables: every number of the text is computed from them."""
 import json
 import math
 import os
@@ -37,16 +37,16 @@ class Kept:
 		return math.exp(error / halvings), math.exp(time / halvings)
 
 	def buysMost(self, name):
-		"""Whether no other number of the scene takes more off the error for the time that it costs."""
+		"""True if no other number of the scene takes more off the error for the time that it costs."""
 		def worth(knob):
 			moved = self.moves(name, knob)
 			found = fronts.exponent(moved) if moved else 0
-			return found if found is not None else math.inf if sum(pairs * math.log(error) for _, _, pairs, error, _ in moved) < 0 else 0 # what costs nothing
+			return found if found is not None else math.inf if sum(pairs * math.log(error) for _, _, pairs, error, _ in moved) < 0 else 0 # a change that costs nothing
 
 		return all(worth('cells') >= worth(knob) for knob in plans[name].together if knob != 'fBar')
 
 	def alone(self, knob, value):
-		"""By scene factors on error and time of one other value, and whether it fails."""
+		"""Factors on error and time of one other value, by scene, and whether it fails."""
 		return {name: row[3:] for name, plan in plans.items() for row in fronts.alternatives(self.runs[name], plan) if row[:2] == (knob, value)}
 
 	def spans(self, knob, value):
@@ -74,14 +74,14 @@ def stepRatios():
 
 
 def solving():
-	"""By method the seconds of one solve of a slender body in 3D, to the smaller of the tolerances."""
+	"""Seconds of one solve of a slender body in 3D by method, to the smaller of the tolerances."""
 	with open(os.path.join(here, '..', 'benchmarks', 'results', 'bench.json')) as file:
 		_, runs = json.load(file)['solvers']['methods'][-1]
 	return {run['method']: run['setUp'] + run['solve'] for run in runs}, runs[0]['unknowns']
 
 
 class Sand:
-	"""What examples/discretisation has of strips on sand and walls in it."""
+	"""Strips on sand and walls in it, from examples/discretisation."""
 
 	def __init__(self):
 		self.ladders = {}
@@ -94,7 +94,7 @@ class Sand:
 		return ', '.join(f'{100 * max(abs(value / exact - 1) for value, exact in (ladder[n] for ladder in chosen)):.2g}' for n in sorted(set.intersection(*map(set, chosen)))[:3]) + ' %'
 
 	def estimates(self):
-		"""What mpm.discretisationError says over the true error, of strips with one point a cell and of walls."""
+		"""Ratio of mpm.discretisationError to the true error, for strips with one point a cell and walls."""
 		chosen = [ladder for name, ladder in self.ladders.items() if not name.endswith('x2')]
 		return [errorOf(ladder[n / 2][0], value, ladder[2 * n][0])[0] / abs(value - exact)
 		        for ladder in chosen for n, (value, exact) in ladder.items() if n / 2 in ladder and 2 * n in ladder]
@@ -114,7 +114,7 @@ What to set, and what not, from {sum(map(len, Kept().runs.values()))} runs by `s
 
 def text(found):
 	kept = Kept()
-	halved = [kept.halving(name) for name in plans if name in found and not found[name].luck and name != 'beam'] # whose theory is no better than the beam
+	halved = [kept.halving(name) for name in plans if name in found and not found[name].luck and name != 'beam'] # the beam is left out: its theory is no better
 	section, quarter = kept.run('circle', cells='4'), kept.run('circle', cells='4', scene="'circle'")
 	with9, without49 = kept.run('footing', cells='4', fBar='1'), kept.run('footing', cells='24', fBar='0')
 	fBar, fine, mpm, stiff = kept.factors('fBar', 'footing', 'cut', 'beam'), kept.spans('tolerance', '1e-9'), kept.spans('basis', "'mpm'"), kept.spans('ghostFactor', '100')

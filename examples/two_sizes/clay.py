@@ -66,7 +66,7 @@ class Clay:
 		return stress, force, (self.spread.T @ K @ self.spread).tocsc()
 
 	def _change(self, K, residual, free, d, load, control):
-		"""Of displacements and factor in one iteration."""
+		"""Change of displacements and factor in one iteration."""
 		matrix = K[free][:, free] + sparse.identity(len(free), format='csc') * 1e-9 * self.shear
 		solver = splu(matrix, permc_spec='MMD_AT_PLUS_A', options=dict(SymmetricMode=True), diag_pivot_thresh=0.01)
 		change, along = np.zeros((2, len(d)))
@@ -77,14 +77,14 @@ class Clay:
 		return change + more * along, more
 
 	def _share(self, d, change, loadOf, free):
-		"""Of the change, halved until the power of what is out of balance has shrunk (H. Matthies, G. Strang 1979)."""
+		"""Part of the change, halved until the power of what is out of balance has shrunk (H. Matthies, G. Strang 1979)."""
 		power = lambda share, force: abs((loadOf(share) - force)[free] @ change[free])
 		before, share = power(0, self.respond(d, False)[1]), 1.
 		while share > 0.05 and power(share, self.respond(d + share * change, False)[1]) > 0.8 * before: share /= 2
 		return share
 
 	def stressError(self):
-		"""Of each cell the square of the difference between its stresses and those smoothed by their means around nodes, over its area."""
+		"""Square of the difference between the stresses of each cell and those smoothed by their means around nodes, over its area."""
 		cells, count = self.tree.cells, len(self.tree.nodes)
 		mean = self.stress.mean(axis=1)
 		share = np.bincount(cells.ravel(), minlength=count)

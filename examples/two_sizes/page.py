@@ -38,12 +38,12 @@ def settled(runs):
 
 
 def front(equal):
-	"""Of runs with equal cells those that no run with larger cells surpasses, from small errors on."""
+	"""Runs with equal cells that no run with larger cells surpasses, from small errors on."""
 	return [run for i, run in enumerate(equal) if all(abs(run['error']) < abs(other['error']) for other in equal[i + 1:])]
 
 
 def needed(equal, error, name):
-	"""How many of what is named equal cells need for an error, by powers between runs; infinite for an error below that of all of them."""
+	"""Number of a quantity that equal cells need for an error, by powers between runs; infinite for an error below that of all of them."""
 	best = front(equal)
 	if not best: return np.nan
 	return np.exp(np.interp(np.log(error), np.log([abs(run['error']) for run in best]), np.log([run[name] for run in best]), left=np.inf))
@@ -68,7 +68,7 @@ def judged(runs):
 
 
 def exponents(runs):
-	"""By scene of examples/trade how the time of a solve grows with unknowns in the plane, from its largest grid and that with cells of about twice the size."""
+	"""Exponents of the time of a solve over unknowns in the plane, by scene of examples/trade, from its largest grid and that with cells of about twice the size."""
 	unknowns = {(run['scene'], run['cells']): run['unknowns'] for run in runs if run['choice'] == 'uniform'}
 	found = {}
 	for name, scene, chosen in (('footing', 'tightFooting', dict(fBar=1)), ('cut', 'cut', dict(fBar=1)), ('clay', 'footing', dict(pointsPerCell=2, stiffness=100))):
@@ -127,7 +127,7 @@ def picture(runs, found, path):
 
 
 def limitLoads(measured):
-	"""Of footings with cells that are halved, beside that with equal cells, which comes first."""
+	"""Limit loads of footings with cells that are halved, beside that with equal cells, which comes first."""
 	lines, equal = [], None
 	for row in measured:
 		isEqual = row['halvings'] == 0

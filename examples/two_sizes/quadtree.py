@@ -16,7 +16,7 @@ class Quadtree:
 
 	def __init__(self, shape, size, origin):
 		self.coarse, self.origin, self.levels, self.shape = size, np.array(origin, float), 0, tuple(shape)
-		self.low, self.width = np.argwhere(np.ones(shape, bool)), np.ones(np.prod(shape), int)  # of each cell, in those of the smallest size
+		self.low, self.width = np.argwhere(np.ones(shape, bool)), np.ones(np.prod(shape), int)  # lowest corner and width of each cell, in those of the smallest size
 
 	@property
 	def smallest(self):

@@ -90,7 +90,7 @@ def cut(cells, levels, fBar=True, width=10.):
 		x, y = positions(tree).T
 		fixed = np.column_stack([(x < 1e-9) | (y < 1e-9), y < 1e-9]).ravel()
 		load, front = clay.weight() / H, np.flatnonzero(x > width - 1e-9)
-		unit = width * 0.002  # of the mean settlement [m], over the area
+		unit = width * 0.002  # unit of the mean settlement [m], over the area
 		d, moved, total, factor, clay.work = np.zeros(fixed.size), [0.], np.zeros(fixed.size), 0., 0.
 		numbers = [0.]
 		while moved[-1] < 0.01 * H:

@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What cells of two and three sizes would save, where plastic clay decides: limit loads on quadtrees (hanging nodes) against those of equal cells, each with its number of unknowns.
+"""Possible savings by cells of two and three sizes, where plastic clay decides: limit loads on quadtrees (hanging nodes) against those of equal cells, each with its number of unknowns.
 
 The plugin has equal cells only. Quadtree and clay are small programs of this folder, for small displacements, in which the plugin's method is the one of clay.py; so what a grid of
 several sizes is worth is measured without such a grid in the plugin. Which cells are halved is chosen in three ways, each to several extents; page.py takes the best.

@@ -49,7 +49,7 @@ def stiffness(x, nodes, young, poisson):
 
 
 def lift(n, young, poisson):
-	"""Of the middle of the right side under a uniform shear of resultant 1."""
+	"""Lift of the middle of the right side under a uniform shear of resultant 1."""
 	x, nodes = elements(n)
 	last = 2 * n * (2 * n + 1)
 	force, u = np.zeros(2 * len(x)), np.zeros(2 * len(x))

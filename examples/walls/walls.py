@@ -48,7 +48,7 @@ if options.pattern == 'turned':  # rows of points along the walls
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (width, 0), (width, height), (0, height)]), MpmGrid(cellSize=h), options.pointsPerCell, 'soil'))
 	for body in O.bodies:
 		body.state.pos = body.state.refPos = corner(*list(body.state.pos)[:2])
-else:  # as in any region: rows along the grid, and stairs at the walls
+else:  # same as any region: rows along the grid, and stairs at the walls
 	column = mpm.polygon([corner(x, y)[:2] for x, y in ((0, 0), (width, 0), (width, height), (0, height))])
 	O.bodies.append(mpm.fill(column, grid, options.pointsPerCell, 'soil'))
 

@@ -49,7 +49,7 @@ def full():
 
 
 def factor(suction):
-	"""Of safety with the pressures of now; without suction where that is not counted on. The scene is as before after it."""
+	"""Factor of safety with the pressures of now; without suction where that is not counted on. The scene is as before after it."""
 	kept = os.path.join(options.out, 'drawn.yade.gz')
 	O.save(kept)
 	points = mpm.arrays()

@@ -41,7 +41,7 @@ def onFace(height):
 
 
 def factor(name):
-	"""Of safety, without suction, which is not counted on. The scene is as before after it."""
+	"""Factor of safety, without suction, which is not counted on. The scene is as before after it."""
 	kept, water = os.path.join(options.out, 'stage.yade.gz'), solver.water
 	O.save(kept)
 	if solver.flow:

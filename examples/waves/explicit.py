@@ -61,7 +61,7 @@ def makeBar(kind, cells):
 
 
 def period(kind, cells, courant):
-	"""By the time at which the velocity has come back through zero."""
+	"""Relative error of the period, from the time at which the velocity has come back through zero."""
 	solver, mode = makeBar(kind, cells)
 	O.dt = courant / cells / c
 	v = [1.]
@@ -195,7 +195,7 @@ def settle(condition, kind, steps=0):
 	loads = [MpmTraction(surface=[(2, 4.1), (0, 4.1)], pressure=2e4)] if condition == 'load' else []
 	O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), base], loads=loads, fBar=condition == 'F-bar',
 	                              newton=MpmNewton(tolerance=1e-9), verbosity=0, **kinds[kind])]
-	steps = steps or int(np.ceil(0.4 / (0.75 * O.engines[0].criticalTimeStep())))  # what is compressed becomes stiffer
+	steps = steps or int(np.ceil(0.4 / (0.75 * O.engines[0].criticalTimeStep())))  # compressed soil becomes stiffer
 	O.dt = 0.4 / steps
 	O.run(steps, wait=True)
 	points, data = mpm.arrays(), O.engines[0].plotData()

@@ -71,7 +71,7 @@ def firstMode(cells, courant):
 
 
 def speed(points):
-	"""Of standing waves eight cells long, in a bar without ends, over c."""
+	"""Speed of standing waves eight cells long, in a bar without ends, over c."""
 	makeBar(16, 1., points=points, period=16)
 	return withoutErrorInTime(swing(np.sin(np.pi / 4 * mpm.arrays()['pos'][:, 0]), 0.1, 1)) / (np.pi / 4 * c)
 
@@ -197,7 +197,7 @@ def faceMatrix(cells):
 	nodes = np.arange(np.prod(np.add(cells, 1))).reshape(np.add(cells, 1))
 	J, along, jump = np.zeros((nodes.size, ) * 2), np.array([[2, 1], [1, 2]]) / 6, np.outer((1, -2, 1), (1, -2, 1))
 	for axis in range(len(cells)):
-		last = np.subtract(cells, 1) - (np.arange(len(cells)) == axis)  # of the first of the two cells at a face
+		last = np.subtract(cells, 1) - (np.arange(len(cells)) == axis)  # number of the first of the two cells at a face
 		of = functools.reduce(np.kron, [jump if a == axis else along for a in range(len(cells))])
 		for cell in np.ndindex(*(last + 1)):
 			if not any(i in (0, end) for i, end in zip(cell, last)): continue
