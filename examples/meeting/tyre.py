@@ -79,7 +79,7 @@ def look():
 sank, pull, borne, torque, pulled, given, deep = run(turnHub, look)
 figure, (picture, curves) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1.5, 1], layout='constrained')
 mpm.plot('plasticStrain', ax=picture, loads=False, range=(0, 0.5))
-weight = 9.81 * O.materials[0].density * volume.sum()  # of its points
+weight = 9.81 * O.materials[0].density * volume.sum()  # weight of its points
 
 O.reset()
 grid, contact = MpmGrid(cellSize=h), MpmContact(mask=2, friction=atan(5), adhesion=cu, stiffness=10)
