@@ -3,7 +3,7 @@
 """Sand that yields: what Newton's method takes, and what the stabilisation of cut cells adds to the load.
 
 	strip    smooth or rough strip footing of width B on weighty sand almost without cohesion: N_gamma = 2 q / (gamma B) after each step;
-	         smooth, phi = psi = 20 degrees: 1.58 (and .03 of the cohesion, and the surcharge of the settlement)
+	         smooth, phi = psi = 20 degrees: 1.58 (and 0.03 of the cohesion, and the surcharge of the settlement)
 	square   the same in 3D, a quarter of it
 	slope    the slope of examples/slope/friction.py: the largest displacement
 

@@ -85,7 +85,7 @@ def terzaghi():
 	worst = max(abs(found - exact) for T, found, exact in degrees if T > 0.02)
 	global error  # for scripts/trade
 	error = max(abs(found / exact - 1) for T, found, exact in degrees if T > 0.02)
-	print(f'terzaghi: degree of consolidation within {worst:.4f} of the series from T = .02 on')
+	print(f'terzaghi: degree of consolidation within {worst:.4f} of the series from T = 0.02 on')
 	for time in .05, .2, .5:
 		T, found, exact = min(degrees, key=lambda degree: abs(degree[0] - time))
 		compared(f'degree of consolidation at T = {T:.3g}', found, exact, 'Terzaghi 1923')

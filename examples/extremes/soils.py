@@ -40,7 +40,7 @@ class SandSlope:
 
 
 class Band:
-	"""A block of clay in plane strain, 1 m wide and 2 m high between smooth plates, a weak spot at its foot, shortened by .5 % in 40 steps. It softens
+	"""A block of clay in plane strain, 1 m wide and 2 m high between smooth plates, a weak spot at its foot, shortened by 0.5 % in 40 steps. It softens
 	from c_u = E / 1000 sqrt(2) to three tenths of that. With F-bar.
 
 	:param cells: over the width

@@ -72,7 +72,7 @@ def footing(dim):
 def judgeFooting(dim, settlement, load):
 	reference = (2 + np.pi) * (1.14 if dim == 3 else 1)
 	rise = load[-1] / np.interp(settlement[-1] - 0.005, settlement, load) - 1
-	print(f'N_c = {load.max():.3f}, {100 * (load.max() / reference - 1):+.1f} % of {reference:.3f}, to {settlement[-1]:.4f} B; rising by {100 * rise:.2f} % in the last .005 B')
+	print(f'N_c = {load.max():.3f}, {100 * (load.max() / reference - 1):+.1f} % of {reference:.3f}, to {settlement[-1]:.4f} B; rising by {100 * rise:.2f} % in the last 0.005 B')
 	compared(f"N_c of the {options.scene}{'' if options.rough else ', smooth'}, {2 * options.cells + 1} cells over the width, F-bar {options.fBar}", load.max(), reference, 'Prandtl 1921' if dim == 2 else 'Gourvenec et al. 2006')
 	return load.max() / reference - 1
 

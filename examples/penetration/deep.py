@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rigid bodies deep in clay without weight (Tresca, c_u = 10 kPa, G = 200 c_u, nu = .49, F-bar), by MpmContact.
+"""Rigid bodies deep in clay without weight (Tresca, c_u = 10 kPa, G = 200 c_u, nu = 0.49, F-bar), by MpmContact.
 
 	cone   of 60 degrees, around the axis, its shoulder one radius deep as it begins: resistance over c_u; Lu et al. (2004) 3.4 + 1.6 ln(G / c_u) + 1.3 rough
 	pile   ten radii deep, around the axis, rough up to half of c_u: jacked down, let go, and jacked again. Its shaft bears half of c_u, its base 9 c_u (Skempton 1951), and what
@@ -26,8 +26,8 @@ options = readOptions('Rigid bodies deep in clay.',
         scene=('cone', "'cone', 'pile' or 'tbar'"),
         cells=(4, 'over the radius'),
         pointsPerCell=(3, 'material points per cell and axis'),
-        depth=(0., 'way in radii; 0: 10 of the cone, .4 of the pile, 2 of the bar'),
-        rough=(-1., 'adhesion over c_u; -1: .5 on the pile, none on cone and bar'),
+        depth=(0., 'way in radii; 0: 10 of the cone, 0.4 of the pile, 2 of the bar'),
+        rough=(-1., 'adhesion over c_u; -1: 0.5 on the pile, none on cone and bar'),
         stiffness=(10., 'of the contact, over E / h'),
         stepsPerCell=(8, 'load steps while cone or bar move by a cell'),
         picture=(1, '1: draw one, and write files for ParaView, 0: only numbers'))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rigid bodies of YADE pressed into soil through MpmContact, which moves them by their velocities.
 
-	plate      a Box on a block of four cells a side without Poisson's ratio, pressed to .75 of its height: E ln .75 / .75
+	plate      a Box on a block of four cells a side without Poisson's ratio, pressed to 0.75 of its height: E ln 0.75 / 0.75
 	footing    a Box on undrained clay in plane strain, half by symmetry: load over width and c_u, Prandtl 2 + pi as long as it is shallow
 	sphere     a smooth Sphere on an elastic half-space, axisymmetric, in a box 15 contact radii wide and deep: force of Hertz
 	free       the same in 3D, a quarter of it, and free: YADE lets the Sphere sink under its weight, which is the force of Hertz, until it rests
@@ -85,9 +85,9 @@ def footing():
 	if len(s) > 2 * inCell + 20:
 		mean = np.convolve(N, np.ones(inCell) / inCell, 'same')
 		off = np.abs(N / mean - 1)[inCell // 2:-(inCell // 2)][s[inCell // 2:-(inCell // 2)] > 0.1 * B]
-		print(f'beyond .1 B: from its moving mean over a cell N differs by {100 * off.mean():.1f} % on average, in {100 * (off > 0.02).mean():.0f} % of the steps by more than 2 %, at most by {100 * off.max():.0f} %')
+		print(f'beyond 0.1 B: from its moving mean over a cell N differs by {100 * off.mean():.1f} % on average, in {100 * (off > 0.02).mean():.0f} % of the steps by more than 2 %, at most by {100 * off.max():.0f} %')
 	shallow = np.interp(0.02 * B, s, N)
-	print(f'at s = .02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
+	print(f'at s = 0.02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
 	compared(f'footing by contact, N_c at .02 B, {2 * options.cells} cells over the width', shallow, 2 + np.pi, 'Prandtl 1921')
 	return shallow / (2 + np.pi) - 1, 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 

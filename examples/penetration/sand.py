@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A smooth cone of 60 degrees and .4 m of radius, pushed from the surface into sand (Mohr-Coulomb, phi = 32, psi = 2 degrees, c = .3 kPa, E = 5 MPa and 15 MPa more with each metre, its weight).
+"""A smooth cone of 60 degrees and 0.4 m of radius, pushed from the surface into sand (Mohr-Coulomb, phi = 32, psi = 2 degrees, c = 0.3 kPa, E = 5 MPa and 15 MPa more with each metre, its weight).
 
 Around the axis to 4 m, with several sizes of the cells, and as a quarter in 3D to 1.2 m: resistance of the tip over its depth. The cases cone-sand and cone-sand-3d of scripts/contacts are the same scene.
 Run it with `scripts/run examples/penetration/sand.py [options]`; runs that are in its folder are not made again.

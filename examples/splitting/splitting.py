@@ -3,7 +3,7 @@
 """Gain of splitting material points that outgrow half a cell: the same scenes with and without it, and with more points from the beginning.
 
 	hang       an elastic bar is stretched by its own weight, to twice its length and more at the top; closed form
-	press      an elastic block between smooth plates is pressed to .15 of its height and grows aside; closed form
+	press      an elastic block between smooth plates is pressed to 0.15 of its height and grows aside; closed form
 	footing    a Box pressed into undrained clay by half its width: how much its load jumps from step to step (examples/penetration)
 	collapse   a vertical cut in clay under growing gravity until it lies flat (examples/collapse)
 	runout1    a column of sand, as high as wide, is let go (examples/runout); runout1.5, runout2, runout3: higher ones
@@ -66,7 +66,7 @@ def hang(points, maxSplits):
 
 
 def press(points, maxSplits, steps=100):
-	"""Force on a plate at .4 of the height, over that of the closed form, E / (1 - nu^2) ln f / f; how far it comes is in *completed*."""
+	"""Force on a plate at 0.4 of the height, over that of the closed form, E / (1 - nu^2) ln f / f; how far it comes is in *completed*."""
 	E, nu, flat, look = 1e6, 0.45, 0.15, 0.4
 	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='rubber'))
 	O.materials.append(FrictMat(label='rigid'))
@@ -91,7 +91,7 @@ def press(points, maxSplits, steps=100):
 
 
 def footing(points, maxSplits):
-	"""Mean difference of the load from its moving mean over a cell, beyond a depth of .1 B; exact: none."""
+	"""Mean difference of the load from its moving mean over a cell, beyond a depth of 0.1 B; exact: none."""
 	B, cu = 1., 1e4
 	h, depth, steps = B / 12, 0.5, 100
 	grid = MpmGrid(cellSize=h)
@@ -152,7 +152,7 @@ def slope(points, maxSplits):
 
 
 def draw():
-	"""The block at .4 of its height without splitting and with it, and the force until each run ends."""
+	"""The block at 0.4 of its height without splitting and with it, and the force until each run ends."""
 	figure, (forces, *blocks) = plt.subplots(1, 3, figsize=(13, 3.6), width_ratios=[1.1, 1, 1], layout='constrained')
 	for points, maxSplits, style in (2, 0, 'o-'), (2, 2, 's-'), (4, 0, 'k--'):
 		text = f'{points} x {points} points, maxSplits={maxSplits}'

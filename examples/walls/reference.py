@@ -5,7 +5,7 @@
 	python3 examples/walls/reference.py [largest number of elements along a side]
 
 Lift of (48, 52) over F / E. With 32, 64, 96, 128 elements: 21.9350, 21.9409, 21.9426, 21.9433 for Poisson's ratio 0.3, and 18.378, 18.450, 18.472, 18.483 for 0.4999. The
-corner at (0, 44), where the stress is infinite, makes them converge slowly: ratios of successive differences, .41 and .45, lead to 21.945 and 18.51. As a check, with 0.499975
+corner at (0, 44), where the stress is infinite, makes them converge slowly: ratios of successive differences, 0.41 and 0.45, lead to 21.945 and 18.51. As a check, with 0.499975
 (lambda = 7500, G = 0.375), for which P. Krysl's faesor gives 16.4326 by extrapolation.
 """
 import sys

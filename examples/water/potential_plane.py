@@ -7,7 +7,7 @@
 The unknown phreatic line is a straight one in the plane of the potential and the stream function, where the flow fills a rectangle: 0 to the level H along the one axis, and the discharge q over the
 conductivity along the other. There the height y is harmonic. It is 0 on the base and on the drain, and the potential itself on the phreatic line; the face, of m horizontal for 1 vertical, says that
 dy/ds + m dy/dt = 0 with s along the flow and t across it. So y is found by one linear solve (bilinear elements, which become ever smaller towards the heel, where velocities are zero), and the length of
-the base from the heel to the drain by the reaction there. Prints a table of discharges beside Casagrande's rule (1937): Kozeny's parabola that begins .3 of the horizontal length of the wetted
+the base from the heel to the drain by the reaction there. Prints a table of discharges beside Casagrande's rule (1937): Kozeny's parabola that begins 0.3 of the horizontal length of the wetted
 face before the waterline.
 """
 import numpy as np

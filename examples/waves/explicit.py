@@ -93,7 +93,7 @@ def bar():
 		for _ in range(300 if options.short else 3000):
 			O.step()
 			courses.append(energy(solver) / first)
-		print(f'{kind}: energy after {len(courses)} steps of .9 of the critical one {courses[-1]:.5f}, most {max(courses):.5f}, least {min(courses):.5f}')
+		print(f'{kind}: energy after {len(courses)} steps of 0.9 of the critical one {courses[-1]:.5f}, most {max(courses):.5f}, least {min(courses):.5f}')
 		ax.plot(courses, linewidth=0.7, label=kind)
 	ax.set(xlabel='steps', ylabel='energy over that of the beginning')
 	ax.legend(frameon=False)
@@ -185,7 +185,7 @@ def trade():
 
 
 def settle(condition, kind, steps=0):
-	"""Displacements (N, 3) after .4 s, energy that is not accounted for over the work, and steps."""
+	"""Displacements (N, 3) after 0.4 s, energy that is not accounted for over the work, and steps."""
 	O.reset()
 	axisymmetric = condition == 'axisymmetric'
 	O.materials.append(MpmElasticMat(young=E, poisson=0.45 if condition == 'F-bar' else 0.3, density=2 * density, label='soil'))

@@ -49,7 +49,7 @@ def theCommand():
 
 @functools.cache
 def quickWaits():
-	"""The folder of waits.so for LD_PRELOAD, by which O.run(n, wait=True) looks every .4 ms whether it has ended, not every 40: most steps of tests take less."""
+	"""The folder of waits.so for LD_PRELOAD, by which O.run(n, wait=True) looks every 0.4 ms whether it has ended, not every 40: most steps of tests take less."""
 	folder = tempfile.TemporaryDirectory()
 	compiled(
 	        '''

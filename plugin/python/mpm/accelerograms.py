@@ -143,7 +143,7 @@ def _equallySpaced(name, times, values):
 
 
 def _lastDigit(times):
-	"""Half of the last digit with which times seem to be written [s], at most a tenth of their mean step: .01 for 0, .01, .01, .02 would hide what is missing."""
+	"""Half of the last digit with which times seem to be written [s], at most a tenth of their mean step: 0.01 for 0, 0.01, 0.01, 0.02 would hide what is missing."""
 	step = (times[-1] - times[0]) / (len(times) - 1)
 	digits = next((d for d in range(10) if np.allclose(np.round(times, d), times, rtol=0, atol=1e-12 * max(1, np.abs(times).max()))), 10)
 	return min(0.5 * 10.**-digits, 0.1 * step)

@@ -17,7 +17,7 @@ _writers = {'.gif': 'pillow', '.mp4': 'ffmpeg', '.mkv': 'ffmpeg', '.webm': 'ffmp
 class movie:
 	"""Film of a run: a picture as of :func:`plot` after every so many iterations, from now on. Makes a PyRunner and puts it at the end of ``O.engines``::
 
-		film = mpm.movie('slope.gif', 'plasticStrain', every=2, range=(0, .2), limits=((0, 30), (0, 13)))
+		film = mpm.movie('slope.gif', 'plasticStrain', every=2, range=(0, 0.2), limits=((0, 30), (0, 13)))
 		O.run(40, wait=True)
 		film.finish()
 

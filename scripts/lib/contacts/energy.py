@@ -82,7 +82,7 @@ class Drawn:
 		self.bodies = [self._body(draw, k) for k in range(draw.choice([1, 1, 2, 3]))]
 
 	def _body(self, draw, number):
-		"""Kind, and what it needs: below the block, so far that nothing of it reaches y = -.02."""
+		"""Kind, and what it needs: below the block, so far that nothing of it reaches y = -0.02."""
 		kind = draw.choice(['box', 'box', 'sphere', 'facet', 'outline'] + ['wall'] * (number == 0))
 		x, turn = draw.uniform(-.05, .35) + .1 * number * draw.choice([-1, 1]), draw.uniform(0, pi)
 		gap = draw.uniform(.02, .05)

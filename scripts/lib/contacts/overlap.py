@@ -143,7 +143,7 @@ def _sides(low, high):
 
 
 def explicitFloors(seconds=60):
-	"""One, four and sixteen floors over each other in explicit steps of .95 of the critical one: the energy imbalance over that of the fall."""
+	"""One, four and sixteen floors over each other in explicit steps of 0.95 of the critical one: the energy imbalance over that of the fall."""
 	found = []
 	for number in 1, 4, 16:
 		O.reset()

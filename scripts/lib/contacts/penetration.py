@@ -20,7 +20,7 @@ coneHeight = R / tan(radians(30))
 
 
 def clay(law):
-	"""c_u is the strength in simple shear of both laws; in triaxial compression von Mises' has .866 c_u."""
+	"""c_u is the strength in simple shear of both laws; in triaxial compression von Mises' has 0.866 c_u."""
 	elastic = dict(young=2 * (1 + poisson) * rigidity * strength, poisson=poisson, density=1, label='soil')
 	if law == 'tresca': O.materials.append(MpmTrescaMat(undrainedStrength=strength, **elastic))
 	else: O.materials.append(MpmVonMisesMat(yieldStress=np.sqrt(2) * strength, **elastic))
@@ -194,7 +194,7 @@ def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffnes
 
 
 def _sand(grid, contact, sides):
-	"""Sand of phi = 32 degrees, psi = 2 degrees, c = .3 kPa with its weight, whose stiffness grows with the depth."""
+	"""Sand of phi = 32 degrees, psi = 2 degrees, c = 0.3 kPa with its weight, whose stiffness grows with the depth."""
 	solver = MpmImplicitEngine(grid=grid, boundaries=sides, loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0, gravity=(0, -9.81, 0), gravityCurve=[(0, 1)])
 	O.engines, O.dt = [solver], 1
 	mpm.geostatic()

@@ -55,7 +55,7 @@ add('punch-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wis
 add('pile', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile')
 add('pile-box', 'penetration.onAxis', smooth, dict(depth=3.), kind='box')
 add('pile-rough', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile', rough=.5)
-# T-bar: Randolph and Houlsby (1984), exact for a rough one, a lower bound within .8 % of the least upper one for a smooth one. Ball in Tresca's clay: lower bounds of Randolph et al. (2000), upper
+# T-bar: Randolph and Houlsby (1984), exact for a rough one, a lower bound within 0.8 % of the least upper one for a smooth one. Ball in Tresca's clay: lower bounds of Randolph et al. (2000), upper
 # ones by minimising the dissipation of smooth stream functions, which gives 10.26 and 14.12 in von Mises'.
 # The smooth ball's stiffness is less, and so is that in von Mises' clay: with 10 the smooth one got to 1.25 diameters.
 for rough in 0, 1:
@@ -93,7 +93,7 @@ for scheme in 'newmark', 'generalised-alpha', 'midpoint':
 add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
 add('energy-sticking', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 300], seconds=300, sticks=True)
 
-# 4. Tunnels: at .3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
+# 4. Tunnels: at 0.3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
 for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
 	add(f'tunnel-{mode}', 'tunnel.met', dict(behind=atMost(0), failed=atMost(0)) | (dict(contactWork=atMost(1e-3)) if mode == 'soilFlies' else {}), dict(parts=[.7, 2., 5.]), mode=mode)
 
@@ -142,7 +142,7 @@ rolls = dict(off=atMost(.01), speedOff=atMost(.01))
 # passes the nodes as fast as it swings on the ground: with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes
 # them four times as fast.
 rollsOn = dict(young=3.4e7, stiffness=400., dt=1e-3, h=.05, rest=.4, long=17, seconds=400)
-# On 30 degrees rolling takes .82 of a friction of .2, and as the normal force swings it slips.
+# On 30 degrees rolling takes 0.82 of a friction of 0.2, and as the normal force swings it slips.
 slopes = {.2: dict(degrees=20., end=.6)}
 for friction in 0., .1, .2, .4:
 	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, **(rollsOn if friction > .1 else {}), **slopes.get(friction, {}))

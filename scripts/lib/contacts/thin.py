@@ -59,7 +59,7 @@ def _spread(places, wide=8):
 
 
 def strip(width, deep=.5, places=5, law='vonMises', stiffness=10., points=2, wide=8, seconds=120):
-	"""A smooth Box of this width pushed into clay that is *wide* wide and deep, in cells; force over c_u h. As *resolved*, what a body would feel that the cells could resolve: 5.14 (1 + .27 sqrt(s / w)) w (Salgado et al. 2004)."""
+	"""A smooth Box of this width pushed into clay that is *wide* wide and deep, in cells; force over c_u h. As *resolved*, what a body would feel that the cells could resolve: 5.14 (1 + 0.27 sqrt(s / w)) w (Salgado et al. 2004)."""
 	body = lambda x: One(utils.box((x, 5 * h, 0), (width / 2 * h, 5 * h, 1), material='rigid', fixed=True))
 	result = _places(body, strength * h, deep * h, _spread(places, wide), lambda: _claySoil(law, wide, points), dict(friction=0, stiffness=stiffness), seconds)
 	return result | dict(resolved=5.14 * (1 + .27 * sqrt(deep / width)) * width)

@@ -70,7 +70,7 @@ def flying(kind, cells, isSoil, seconds):
 
 
 def pushed(kind, cells, isSoil, seconds):
-	"""In statics, by .6 m in steps of so many cells: a block whose upper side is held is moved down at a body .5 m below it, or the body up at the block."""
+	"""In statics, by 0.6 m in steps of so many cells: a block whose upper side is held is moved down at a body 0.5 m below it, or the body up at the block."""
 	grid, number = _block()
 	body = _body(kind)
 	steps = max(1, round(.6 / (cells * h)))

@@ -56,7 +56,7 @@ namespace {
 
 	TEST(EliminationOrder, KeepsTheFactorAsSmallAsCholmodDoes)
 	{
-		constexpr double atMost = 1.2; // .72 to 1.11 are found
+		constexpr double atMost = 1.2; // 0.72 to 1.11 are found
 		const auto       slope  = [](const auto& i) { return i[0] > 40 && i[1] > 30 - i[0] / 4; };
 		EXPECT_LT(flopsOverThoseOfCholmod(Springs<2>({ 60, 60 }, 1)), atMost);
 		EXPECT_LT(flopsOverThoseOfCholmod(Springs<2>({ 100, 40 }, 2, slope)), atMost);

@@ -167,7 +167,7 @@ namespace {
 	}
 
 	/// Whatever the step is, as internal forces exert no torque on the points where they are at its end. Lumping
-	/// loses some: by .1 in this spin of a radian.
+	/// loses some: by 0.1 in this spin of a radian.
 	TYPED_TEST(Explicit, AngularMomentumOfASpinIsKept)
 	{
 		constexpr int Dim    = TypeParam::value;

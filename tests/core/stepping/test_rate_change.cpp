@@ -51,7 +51,7 @@ namespace {
 		EXPECT_EQ(estimate(Hencky(young, .3), a), 0);
 		for (const bool fBar : { false, true })
 			EXPECT_LT(estimate(VonMises(young, .3, 1e9), a, fBar), 1e-12);
-		// half of the shear strain of .005 yields
+		// half of the shear strain of 0.005 yields
 		EXPECT_NEAR(estimate(VonMises(young, .3, std::sqrt(2) * young / 1.3 * .0025), a), a.norm() * now * now / 4, .002);
 	}
 

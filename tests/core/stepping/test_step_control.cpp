@@ -47,7 +47,7 @@ namespace {
 		StepControl control(1, 1. / 1024, maxIterations);
 		EXPECT_EQ(partsOf(control, { fails, fails, fails, easy, hard, hard, easy }), (Parts { 1, .5, .25, .125, .25, .25, .25 }));
 		EXPECT_EQ(control.cuts(), 3);
-		EXPECT_EQ(control.goal(), 1); // .125 are left, though .5 would be tried
+		EXPECT_EQ(control.goal(), 1); // 0.125 are left, though 0.5 would be tried
 		EXPECT_EQ(control.part(), .125);
 		EXPECT_TRUE(control.take(hard));
 		EXPECT_TRUE(control.isDone());

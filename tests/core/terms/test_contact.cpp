@@ -43,7 +43,7 @@ namespace {
 	TYPED_TEST(ContactOf, TangentIsTheDerivative) { testTangents<TypeParam::value>(false); }
 	TEST(Contact, TangentIsTheDerivativeAroundAnAxis) { testTangents<2>(true); }
 
-	/// Pressed to .75 of its height, nu = 0: E ln l / l.
+	/// Pressed to 0.75 of its height, nu = 0: E ln l / l.
 	TYPED_TEST(ContactOf, PlateOnABlock)
 	{
 		constexpr int Dim   = TypeParam::value;
@@ -209,7 +209,7 @@ namespace {
 		EXPECT_EQ(before, block.cloud.position);
 	}
 
-	/// The middles of the highest points are .125 m from it. A tenth of a cell is .05 m.
+	/// The middles of the highest points are 0.125 m from it. A tenth of a cell is 0.05 m.
 	TEST(Contact, SoilOnOneSideOfASheetMayGetBehindItALittle)
 	{
 		Block<2> block;
@@ -283,7 +283,7 @@ namespace {
 	TYPED_TEST(ContactOf, WhatIsThinDoesNotLetSoilThrough)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const double way : { 0.04, 0.11, 0.3 }) { // the thickness is .02
+		for (const double way : { 0.04, 0.11, 0.3 }) { // the thickness is 0.02
 			Block<Dim> block;
 			block.rollers();
 			Vec<Dim> place         = Vec<Dim>::Constant(0.75);

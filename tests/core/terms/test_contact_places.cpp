@@ -236,7 +236,7 @@ namespace {
 		}
 	}
 
-	/// Soil that goes about an edge at random, in steps of up to .6 of a cell, and through the body: contact never
+	/// Soil that goes about an edge at random, in steps of up to 0.6 of a cell, and through the body: contact never
 	/// gives back more than it has taken, as there is nothing that a fixed body without friction could have done.
 	TYPED_TEST(ContactPlacesOf, NoEnergyIsGivenAtEdges)
 	{

@@ -12,7 +12,7 @@ namespace {
 	constexpr RigidKind kinds[] = { RigidKind::ball, RigidKind::block };
 
 	/// Soil of eight by two (by eight) cells, but for the first ones along x that are cut off, and on its top a
-	/// ball of radius .8 h or a block 2 h wide, the first places of which are in the lower halves of cells.
+	/// ball of radius 0.8 h or a block 2 h wide, the first places of which are in the lower halves of cells.
 	template <int Dim> struct Small : TouchedSoil<Dim> {
 		const int first; ///< index of the first of these cells
 

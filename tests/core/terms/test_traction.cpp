@@ -142,7 +142,7 @@ namespace {
 		EXPECT_NEAR(system.fromOutside(zero) / force.norm(), 1, 1e-14);
 	}
 
-	/// Confined, nu = 0: E ln l / l = -q, so that l = W(q/E)/(q/E) = .844580 for q/E = .2.
+	/// Confined, nu = 0: E ln l / l = -q, so that l = W(q/E)/(q/E) = 0.844580 for q/E = 0.2.
 	TYPED_TEST(TractionOf, SurchargeOnAColumn)
 	{
 		constexpr int Dim = TypeParam::value;

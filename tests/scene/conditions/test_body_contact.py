@@ -302,7 +302,7 @@ def turn(mu, steps=120):
 
 
 def test_forces_turn_with_bodies(yade):
-	"""Once around, with friction and without: they keep their direction within a degree. Of what a single block keeps in this turn, .94 of its force, the two keep .8 and more."""
+	"""Once around, with friction and without: they keep their direction within a degree. Of what a single block keeps in this turn, 0.94 of its force, the two keep 0.8 and more."""
 	for forces in yade(scene + turning + 'print(json.dumps([turn(0), turn(1)]))').result:
 		forces = np.array(forces)
 		sizes = np.linalg.norm(forces, axis=1)

@@ -43,7 +43,7 @@ def force(): return solver.contacts[0].forces[0]
 
 
 def test_a_plate_of_any_kind_presses_alike(yade):
-	"""To .75 of the height, nu = 0: E ln l / l per area; whether the engine moves the plate or YADE does."""
+	"""To 0.75 of the height, nu = 0: E ln l / l per area; whether the engine moves the plate or YADE does."""
 	results = yade(scene + '''
 found = []
 for kind, dim in ('box', 2), ('wall', 2), ('walls', 2), ('facet', 2), ('box', 3):

@@ -125,7 +125,7 @@ print(json.dumps(found))
 
 
 def test_a_block_tips_over(yade):
-	"""Pushed in its middle, by more than its weight times the arm of its outermost place, an eighth of a cell within its edge: (B / 2 - h / 8) / (H / 2) = .4375 of its weight. Turned by less than .002 until then."""
+	"""Pushed in its middle, by more than its weight times the arm of its outermost place, an eighth of a cell within its edge: (B / 2 - h / 8) / (H / 2) = 0.4375 of its weight. Turned by less than 0.002 until then."""
 	stands, turned, falls = yade(scene + '''
 solver = soil(size=(3, .5), young=1e8, contacts=[MpmContact(friction=.8, mask=1, implicit=True)], dt=.5)
 block = box((1.5, 1, 0), (.25, .5, .5))

@@ -45,7 +45,7 @@ def refused(call, expected):
 
 
 def test_level_ground_stays_one_dimensional(yade):
-	"""Ground with weight, carried .2 cells through the grid for 20 s: rows of points move alike, as in the column beside it, and the surface with twice the wave."""
+	"""Ground with weight, carried 0.2 cells through the grid for 20 s: rows of points move alike, as in the column beside it, and the surface with twice the wave."""
 	run = yade(scene + '''
 settings = level(6, 4, gravity=9.81)
 history = [(t, float(v)) for t, v in zip(np.arange(0, 18, 0.02), pulse(np.arange(0, 18, 0.02) % 3 - 0.5) * np.where(np.arange(0, 18, 0.02) % 6 < 3, 1, -1) / 2)]

@@ -444,7 +444,7 @@ print(json.dumps([]))
 
 
 def test_edges_give_soil_no_energy(yade):
-	"""A block falls on the edge of a fixed smooth box in steps of .05 to .3 cells; it was thrown off with up to 435 times its energy."""
+	"""A block falls on the edge of a fixed smooth box in steps of 0.05 to 0.3 cells; it was thrown off with up to 435 times its energy."""
 	run = yade(scene + '''
 import sys
 def fallen(scheme, young, pointsPerCell, part, turn, x):

@@ -225,7 +225,7 @@ Ka = np.tan(pi / 4 - phi / 2)**2
 
 
 def test_cantilever_wall_fails_where_blum_says(yade):
-	"""A smooth stiff wall of 6 m in sand, dug out on one side: it does not move while it is put in, stands at .9 of Blum's depth (without his addition of 20 %), with his moment, and is thrown over at 1.05 of it."""
+	"""A smooth stiff wall of 6 m in sand, dug out on one side: it does not move while it is put in, stands at 0.9 of Blum's depth (without his addition of 20 %), with his moment, and is thrown over at 1.05 of it."""
 	putIn, moment, stands, thrown = yade(sheetPile + '''
 L, low, high, depth = 6, -12, 14, 9
 sand()

@@ -27,7 +27,7 @@ def height(): return max(v[1] for v in solver.loads[0].surface.vertices) / 2
 
 
 def test_surcharge_gives_the_exact_stretch(yade):
-	"""Confined, nu = 0: E ln l / l = -q, so l = .844580 for q = E / 5; dead or following, it is the same."""
+	"""Confined, nu = 0: E ln l / l = -q, so l = 0.844580 for q = E / 5; dead or following, it is the same."""
 	results = yade(column + '''
 found = []
 for load in dict(), dict(pressure=0, traction=(0, -2e5, 0)):
@@ -68,7 +68,7 @@ print(json.dumps([heights, straight[0], straight == finish()]))
 
 
 def test_safety_counts_loads_on_surfaces(yade):
-	"""Clay that may widen, under a pressure q with c_u = .8 q: 2 c_u = 1.6 q carries it up to F = 1.6; the load is left where it is."""
+	"""Clay that may widen, under a pressure q with c_u = 0.8 q: 2 c_u = 1.6 q carries it up to F = 1.6; the load is left where it is."""
 	results = yade(column + '''
 load = column()
 O.materials.append(MpmTrescaMat(young=1e8, poisson=0.3, density=1, undrainedStrength=8e4, label='clay'))

@@ -83,7 +83,7 @@ print(json.dumps([abs(data['momentum_x'] - before) / before, most / first, v[x <
 ''')
 	momentum, most, left, _ = run.result
 	assert momentum < 1e-10
-	assert most < 1 + 2e-3 # at .9 of the critical step; it falls with the square of it
+	assert most < 1 + 2e-3 # at 0.9 of the critical step; it falls with the square of it
 	assert left < 0.5, 'they have met'
 
 

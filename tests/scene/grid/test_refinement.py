@@ -56,7 +56,7 @@ print(json.dumps([found, volume, all((p - Vector3(1, 1, 0)).norm() <= 1 for p in
 
 
 def test_a_plate_presses_across_the_sizes(yade):
-	"""To .75 of the height, nu = 0: E ln l / l per area, the same at all points; with F-bar too, and around an axis, where it is even to a percent with equal cells."""
+	"""To 0.75 of the height, nu = 0: E ln l / l per area, the same at all points; with F-bar too, and around an axis, where it is even to a percent with equal cells."""
 	results = yade(scene + '''
 found = []
 for dim, options in (2, {}), (2, dict(fBar=True)), (2, dict(top=True)), (2, dict(axisymmetric=True)), (2, dict(axisymmetric=True, fBar=True)), (3, {}), (3, dict(fBar=True)), (3, dict(newton=MpmNewton(linearSolver='iterative', tolerance=1e-9))):

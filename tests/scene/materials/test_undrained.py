@@ -45,7 +45,7 @@ print(json.dumps([settled, total, float(-points['excessPressure'].min() / sigma.
 	assert settled == pytest.approx(total, rel=1e-6)
 	assert mean < 1e-5
 	assert settled < 0.8 * drained
-	# Biquadratic elements give .6220 and .6215 for undrained ratios of .499 and .4999.
+	# Biquadratic elements give 0.6220 and 0.6215 for undrained ratios of 0.499 and 0.4999.
 	assert settled * 1e6 == pytest.approx(0.6215, rel=0.01)
 
 

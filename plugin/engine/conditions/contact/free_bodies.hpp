@@ -20,7 +20,7 @@ struct SoilAtBody {
 //     x_1 = x_0 + T v_0 + T^2 F / (2 m),  v_1 = v_0 + T F / m,  F = -k (x_0 + T v_0),
 // the motion is damped and stable for k T^2 / m < 2, and half of that is admitted. k is that of the penalties in series
 // with the soil: that of a rigid punch on a half-space, 2 E times its width, of which a cell is the least, and of the
-// mass that moves with it within the step, 2 / T^2 times .3 of that in the first layer of cells.
+// mass that moves with it within the step, 2 / T^2 times 0.3 of that in the first layer of cells.
 void requirePeriod(const Body&, const gimpm::ContactLoad&, const SoilAtBody&, Real dt, Real period);
 
 } // namespace yade
