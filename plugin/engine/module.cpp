@@ -48,7 +48,7 @@ void defineHelpers()
 	        +[](const MpmImplicitEngine& engine, const py::object& positions, const py::object& halfSizes) {
 		        return waterAroundForPython(engine, positions, halfSizes);
 	        },
-	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
+	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their centres and half sizes.");
 	py::def(
 	        "actInPart",
 	        +[](MpmMaterial& material, Real share, bool isDugOut) {
@@ -67,7 +67,7 @@ void defineFilling()
 	py::def("newBodies", &newBodies,
 	        (py::arg("grid"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
 	        "For mpm.fill: bodies from a grid, positions, half sizes, materials, the index of each body's material, and a dict of columns of parameters; "
-	        "*body*: the place of their body of points in MpmGrid.bodies.");
+	        "*body*: the number of their body of points in MpmGrid.bodies.");
 	py::def("addPoints", &addPoints,
 	        (py::arg("engine"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
 	        "For mpm.add: puts such bodies into the scene of an engine, or where processes divide them each its own; the id of the first.");

@@ -52,7 +52,7 @@ public:
 		  oneOf("auto", "direct", "iterative", "amg"));
 		v("stepTolerance", &MpmNewton::stepTolerance, 0,
 		  "Largest estimated error of displacements in a quasi-static step [m] >= 0: steps beyond it are cut (*minStep*) and grow again, up to O.dt. 0: not "
-		  "looked at. Needs *predictor*.",
+		  "checked. Needs *predictor*.",
 		  nonNegative);
 	}
 	void requireAdmissible() const override;

@@ -131,7 +131,7 @@ template <class V> void RunResults::results(V&& v)
 	v("amgSetups", &R::amgSetups, sum([](const StepReport& r) { return r.conjugateGradients.hierarchies; }), byReport, readonly,
 	  "Number of times that algebraic multigrid was set up in the last run (see MpmNewton.linearSolver).", count);
 	v("wallOverlap", &R::wallOverlap, latest(&StepReport::largestWallOverlap), byReport, readonly,
-	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.", nonNegative);
+	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as constrained.", nonNegative);
 	v("ghostShare", &R::ghostShare, reached(&StepReport::ghostShare), byReportAndPlot, readonly,
 	  "Part [-] of the work at the edge of the body in the last static step that the ghost stabilisation took up; NaN with inertia or *flow*.", any);
 }

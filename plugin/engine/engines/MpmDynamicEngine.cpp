@@ -43,7 +43,7 @@ void MpmDynamicEngine::requireAdmissible() const
 		        + " needs accelerations at both ends of a step, which scheme='midpoint' does without: take 'newmark' or 'generalised-alpha'.");
 	if (flow && scheme == "midpoint")
 		throw std::invalid_argument(
-		        "MpmDynamicEngine.scheme = 'midpoint' looks at forces in the middle of a step, and flow at the water at its end: take 'newmark' or "
+		        "MpmDynamicEngine.scheme = 'midpoint' evaluates forces in the middle of a step, and flow the water at its end: take 'newmark' or "
 		        "'generalised-alpha'.");
 	if (flow && timeTolerance > 0)
 		throw std::invalid_argument(
@@ -52,7 +52,7 @@ void MpmDynamicEngine::requireAdmissible() const
 	if (scheme == "generalised-alpha" && rayleigh.second > 0 && !contacts.empty())
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.rayleigh = (" + std::to_string(rayleigh.first) + ", " + std::to_string(rayleigh.second)
-		        + "): damping by stiffness and contact of rigid bodies make energy together with scheme='generalised-alpha': take "
+		        + "): damping by stiffness and contact of rigid bodies gain spurious energy together with scheme='generalised-alpha': take "
 		          "scheme='newmark', or rayleigh=(alpha, 0).");
 }
 

@@ -50,7 +50,7 @@ public:
 		v("rhoInfinity", &E::rhoInfinity, 0, "Factor by which generalised-alpha keeps the highest frequencies in each step [-], 0 to 1.",
 		  admitting("a number from 0 to 1", [](Real value) { return value >= 0 && value <= 1; }));
 		v("timeTolerance", &E::timeTolerance, 0,
-		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep) and grows again. 0: not looked at. Not with 'midpoint'.",
+		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep) and grows again. 0: not checked. Not with 'midpoint'.",
 		  nonNegative);
 		v("absorbing", &E::absorbing, 0, "Edges where waves leave the body (MpmAbsorbingBoundary); read as a tuple, so assign a new one to change it.");
 		v("rayleigh", &E::rayleigh, 0,
@@ -60,7 +60,7 @@ public:
 		v("boundaryWork", &E::boundaryWork, readonly, "Work of boundaries that move, and of those that absorb, so far [J].", finite);
 		v("contactWork", &E::contactWork, readonly, "Work of rigid bodies on the material so far, friction and penalties included [J].", finite);
 		v("impactWork", &E::impactWork, readonly,
-		  "Kinetic energy that held nodes have taken from points which came to them with other velocities, so far [J].", finite);
+		  "Kinetic energy that constrained nodes have taken from points which came to them with other velocities, so far [J].", finite);
 		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
 		v("gridWork", &E::gridWork, readonly,
 		  "Energy lost so far because steps begin with the accelerations of the points, not with those of the stress on the new grid, and what "

@@ -126,7 +126,7 @@ namespace {
 		for (const Listed& listed : engine.conditions())
 			if (listed.condition->partsBodies())
 				throw std::invalid_argument(
-				        engine.getClassName() + ": the strength cannot be reduced where bodies of points meet (" + listed.name()
+				        engine.getClassName() + ": the strength cannot be reduced with contact between bodies of points (" + listed.name()
 				        + ") yet: what presses them together would go with the modulus.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
 		gimpm::WeakBody<3> found; // result in either dimension

@@ -13,8 +13,8 @@ public:
 	YADE_API_NAME(MpmBody)
 	static const char* doc()
 	{
-		return "A body of points with a name, which may meet others (MpmBodyContact): its surface, which moves with it. mpm.fill(..., body='slab') makes it, "
-		       "and puts it into MpmGrid.bodies; its points have its place there as *MpmState.body*.\n\n"
+		return "A body of points with a name, which may be in contact with others (MpmBodyContact): its surface, which moves with it. mpm.fill(..., body='slab') makes it, "
+		       "and puts it into MpmGrid.bodies; its points have its number there as *MpmState.body*.\n\n"
 		       "Not to be made itself: begin with mpm.fill(..., body=...). Page: plugin/docs/classes/MpmBody.md.";
 	}
 	template <class V> static void attributes(V&& v)

@@ -11,7 +11,7 @@ gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Ve
 	const bool missesPlane = Dim == 2 && (min[2] > grid.origin[2] || max[2] < grid.origin[2]);
 	if (!box.empty() && !missesPlane) return box;
 	std::ostringstream text;
-	text << name << " from min = (" << min.transpose() << ") to max = (" << max.transpose() << ") holds no grid node; nodes are at "
+	text << name << " from min = (" << min.transpose() << ") to max = (" << max.transpose() << ") contains no grid node; nodes are at "
 	     << grid.origin.transpose() << " plus multiples of " << (lattice.refinement ? "the smallest cell = " : "cellSize = ") << lattice.cellSize << ".";
 	if (lattice.isPeriodic()) text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
 	throw std::invalid_argument(text.str());

@@ -80,7 +80,7 @@ namespace {
 		if (part == 1) return " Smaller steps (O.dt), or newton.minStep < 1, may help.";
 		if (engine.isDynamic())
 			return " Smaller steps (O.dt) or a smaller newton.minStep may help; where the motion is right until then, what strikes, pushes or pulls so hard is "
-			       "near the place that is named.";
+			       "near the point that is named.";
 		if (grows) return " The load may be more than the body can carry in equilibrium." + nearnessOfLimit(engine, points);
 		return " What has changed since the step before (soil, water, strength, boundaries or bodies that move) may be more than the body can carry in equilibrium.";
 	}
@@ -98,7 +98,7 @@ namespace {
 		if (report.failure == Failure::inaccurate)
 			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
-			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
+			return " It may have no equilibrium; more friction, or constrained nodes (MpmBoundary), would support it.";
 		if (engine.isExplicit()) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 		if (report.failure == Failure::apart)
@@ -106,7 +106,7 @@ namespace {
 			       "machines must be of one kind.";
 		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 		if (report.failure == Failure::detached)
-			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
+			return " Nodes stay where they are while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
 			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
 		if (engine.ghost->factor == 0)
 			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
@@ -131,7 +131,7 @@ namespace {
 		std::ostringstream     text;
 		if (!engine.isDynamic() && from != to) text << "the load step from factor " << engine.loadFactor << " to " << to;
 		else
-			text << (engine.isDynamic() ? "the step in time" : "the load step") << " from O.time = " << engine.loadTime << " to " << time << " s";
+			text << (engine.isDynamic() ? "the time step" : "the load step") << " from O.time = " << engine.loadTime << " to " << time << " s";
 		text << stageOf(engine);
 		if (engine.isDynamic() && from != to) text << ", of loads from factor " << from << " to " << to;
 		return text.str();
@@ -228,9 +228,9 @@ string warningOfLoosePoints(const Analysis& engine)
 	const auto& report = engine.last;
 	if (report.loosePoints == 0) return "";
 	std::ostringstream text;
-	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest, or hanging on it by a corner of a cell ("
+	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest, or connected to it by a corner of a cell ("
 	     << report.loosePoints << ", the first around " << report.loosePlace
-	     << "): no equilibrium tells where they go, so they are held where they are (report()['loosePoints'], by report()['looseForce']).";
+	     << "): no equilibrium tells where they go, so they are constrained where they are (report()['loosePoints'], by report()['looseForce']).";
 	return text.str();
 }
 
@@ -239,8 +239,8 @@ string warningOfNoUnknowns(const Analysis& engine)
 	const auto all     = engine.conditions();
 	const auto isActed = [](const Listed& listed) { return listed.condition->moves() || string(listed.list) == "flow"; };
 	if (engine.isExplicit() || engine.dofs > 0 || std::any_of(all.begin(), all.end(), isActed)) return "";
-	return "all nodes that material points touch are held in all directions, and none of them is moved, so that no point can move. An MpmBoundary without min "
-	       "and max holds the whole grid; max=(inf, 0, inf) holds what is at y <= 0.";
+	return "all nodes that material points touch are constrained in all directions, and none of them is moved, so that no point can move. An MpmBoundary without min "
+	       "and max constrains the whole grid; max=(inf, 0, inf) constrains the nodes at y <= 0.";
 }
 
 } // namespace yade

@@ -217,7 +217,7 @@ string Plausibility::warningOfPlaces(const Analysis& engine, const vector<Materi
 	lookedAt.swap(boxes);
 	const auto   isAsked = [&](const MpmCondition& condition) { return asked.count(&condition) > 0; };
 	const string idle    = asked.empty() ? "" : idleConditions(engine, points, isAsked);
-	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
+	return idle.empty() ? "" : idle.substr(1) + " It constrains nothing until soil arrives there.";
 }
 
 string Plausibility::once(const string& about, const string& sentence) { return sentence.empty() || !saidAbout.insert(about).second ? "" : sentence; }
@@ -250,7 +250,7 @@ string Plausibility::warningOfLength(
 	length = ofWave <= mostOfWave && ofPoint <= mostOfPoint
 	        ? ""
 	        : sentence(
-	                "a step in time lasts ", T, " s (O.dt = ", engine.sceneOfRun().dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
+	                "a time step lasts ", T, " s (O.dt = ", engine.sceneOfRun().dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
 	                ofWave, " cells, and the fastest point would fly ", ofPoint,
 	                " cells. For waves a step should be half a cell of theirs or less; what lasts longer is seen in steps of some cells, and "
 	                "points should move less than half a cell.");

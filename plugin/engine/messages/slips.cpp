@@ -58,11 +58,11 @@ string warningOfSlip(const Analysis& engine, const vector<MaterialPoint>& points
 	if (!slip || !(slip->excess > much)) return "";
 	std::ostringstream text;
 	text << "in the step to O.time = " << engine.loadTime << " the face of " << slip->height << " m (" << slip->height / model.grid.cellSize
-	     << " cells) above (" << slip->foot.transpose() << ") stands, which its strength cannot hold: on a plane of "
+	     << " cells) above (" << slip->foot.transpose() << ") stands, which its strength cannot bear: on a plane of "
 	     << std::lround(slip->angle * 180 / M_PI) << " degrees through its foot "
 	     << (std::isfinite(slip->excess) ? "the weight does " + gimpm::sentence(slip->excess) + " times the work that its cohesion can take up"
 	                                     : string("soil without cohesion slides"))
-	     << " (Coulomb 1776). Too few cells or the stabilisation hold it. fBar=True with ghost=MpmGhost(where='aggregates', memory=1, workTolerance=0.03), and "
+	     << " (Coulomb 1776). Too few cells or the stabilisation support it. fBar=True with ghost=MpmGhost(where='aggregates', memory=1, workTolerance=0.03), and "
 	        "smaller cells, let it fail. This is said once.";
 	return text.str();
 }

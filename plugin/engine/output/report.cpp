@@ -40,12 +40,12 @@ namespace {
 
 	using E          = const Analysis&;
 	const Row rows[] = {
-		{ "accepted", "Whether a step that has not converged was taken over (see MpmNewton.acceptUnconverged).",
+		{ "accepted", "True if a step that has not converged was taken over (see MpmNewton.acceptUnconverged).",
 		  [](E e) { return py::object(e.last.accepted); } },
 		{ "failure",
-		  "'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' "
-		  "(friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), "
-		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), 'stabilised' (MpmGhost.workTolerance), "
+		  "'none', 'detached' (a boundary that is to move constrains no soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' "
+		  "(friction at its limit does not support it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), "
+		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a time step with spurious energy gain), 'stabilised' (MpmGhost.workTolerance), "
 		  "'singular', 'inverted', 'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states) or "
 		  "'interrupted'.",
 		  [](E e) { return py::object(nameOf(e.last.failure)); } },
@@ -68,7 +68,7 @@ namespace {
 		  "asked, as in steps of newton.minStep.",
 		  [](E e) { return py::object(e.last.localError); } },
 		{ "stiffness",
-		  "Of the last matrix that was factorised: 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have "
+		  "Kind of the last matrix that was factorised: 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have "
 		  "another state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve).",
 		  [](E e) { return py::object(nameOf(e.last.definiteness)); } },
 		{ "worstNode", "Position [m] of the largest out-of-balance force, NaN if there is none.",
@@ -81,15 +81,15 @@ namespace {
 		  [](E e) { return py::object(e.last.mixedCells); } },
 		{ "islands",
 		  "Parts of the body that share no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as "
-		  "long as every part is held against rigid motion; a part that is not ends the run as 'unrestrained', with its place, since no equilibrium determines "
+		  "long as every part is constrained against rigid motion; a part that is not ends the run as 'unrestrained', with its position, since no equilibrium determines "
 		  "where it goes.",
 		  [](E e) { return py::object(e.last.parts); } },
 		{ "loosePoints",
-		  "Points in parts of the body that a static step has held where they are: fewer than a cell has nodes, apart from the rest or hanging on it by a corner or an edge of a cell, "
+		  "Points in parts of the body that a static step has constrained where they are: fewer than a cell has nodes, apart from the rest or connected to it by a corner or an edge of a cell, "
 		  "and nothing restrains them. "
 		  "Of MpmDynamicEngine see there.",
 		  [](E e) { return py::object(e.last.loosePoints); } },
-		{ "looseForce", "The force with which they are held, in all [N]; by a node that they share with the rest they may weigh on that, too.",
+		{ "looseForce", "The force with which they are constrained, in all [N]; by a node that they share with the rest they may weigh on that, too.",
 		  [](E e) { return py::object(Vector3r(e.last.looseForce)); } },
 		{ "clampedDomains",
 		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
@@ -101,7 +101,7 @@ namespace {
 		  [](E e) { return py::object(e.grid->dim == 2 ? mismatchIn<2>(e) : mismatchIn<3>(e)); } },
 		{ "wallOverlap",
 		  "The largest length [m] by which a domain reached behind a wall in the last step: no cell is populated there, and the point's share in nodes behind "
-		  "the wall counts as held.",
+		  "the wall counts as constrained.",
 		  nullptr },
 	};
 

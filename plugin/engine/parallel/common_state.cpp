@@ -96,7 +96,7 @@ namespace {
 
 	string startOf(const Analysis& engine, const char* what)
 	{
-		return gimpm::sentence(engine.className(), ": the processes hold different ", what, " in iteration ", engine.sceneOfRun().iter);
+		return gimpm::sentence(engine.className(), ": the processes have different ", what, " in iteration ", engine.sceneOfRun().iter);
 	}
 }
 
@@ -109,7 +109,7 @@ void requireSame(const gimpm::Processes& all, const Analysis& engine, const vect
 	            : !areSamePoints          ? "material points"
 	            : !areSameSettings        ? "settings"
 	            : !rubAlike               ? "materials of rigid bodies"
-	            : !moveAlike              ? "places or velocities of rigid bodies"
+	            : !moveAlike              ? "positions or velocities of rigid bodies"
 	                                      : nullptr;
 	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
 }
@@ -146,7 +146,7 @@ vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<Mater
 			materials.push_back(dynamic_cast<const MpmMaterial*>(scene.materials[m].get()));
 		}
 	if (all.haveSame(checksumOf(values))) return materials;
-	throw std::runtime_error("the processes hold different values of materials. The script must do the same in all of them.");
+	throw std::runtime_error("the processes have different values of materials. The script must do the same in all of them.");
 }
 
 } // namespace yade

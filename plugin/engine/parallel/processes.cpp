@@ -112,7 +112,7 @@ template <class F> void Agreement::requireAgreement(const Analysis& engine, F&& 
 	if (!isSameIteration || !haveSamePoints(*all))
 		throw std::runtime_error(
 		        engine.className() + ": the processes "
-		        + (isSameIteration ? "hold different material points" : "are not in the same iteration; this one is") + " in iteration "
+		        + (isSameIteration ? "have different material points" : "are not in the same iteration; this one is") + " in iteration "
 		        + std::to_string(engine.sceneOfRun().iter)
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }

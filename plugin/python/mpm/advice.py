@@ -128,7 +128,7 @@ def _notNeeded(scene):
 	"""Features that the scene uses and does not need, or lacks; numbers are those of examples/trade and examples/extremes."""
 	solver, found = scene.solver, [f'settings: {sentence}' for about, sentence in scene.solver._doubts().items() if about not in _saidBelow]
 	if scene.dim == 3 and scene.uniformAlongZ():
-		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
+		found.append('dim: both ends are constrained along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
 	if solver.iterPeriod == 1 and scene.steps > 1e6:
 		found.append(f'O.dt: {scene.steps:.3g} steps are more than an analysis may have (1e6); was O.dt forgotten? It is the load time of one step.')
 	if isinstance(solver, wrapper.MpmDynamicEngine): found += [_stepInTime(scene)] + adviceOnMotion(solver)
@@ -152,7 +152,7 @@ def _notNeeded(scene):
 		cells = max(abs(factor) for _, factor in boundary.curve or solver.loadCurve) * max(map(abs, boundary.displacement)) / scene.h
 		if cells > 0.5:
 			found.append(
-			        f'boundaries[{i}]: it moves by {cells:.3g} cells, but its nodes stay in place: soil that they push away from its surface follows for half a '
+			        f'boundaries[{i}]: it moves by {cells:.3g} cells, but its nodes stay where they are: soil that they push away from its surface follows for half a '
 			        'cell, then the step ends. Recipes in examples/README.md push deeper.'
 			)
 	if solver.ghost.factor == 0: found.append('stabilisation: it is off; one point that leaves its row can make a step fail. MpmGhost() costs next to nothing.')

@@ -54,10 +54,10 @@ def _plane(cut):
 	try:
 		place, normal = (np.array([float(x) for x in part] + [0.] * (3 - len(part))) for part in cut)
 	except (TypeError, ValueError):
-		raise TypeError(f'sectionForces: cut = {brief(cut)} must be (place, normal), two or three numbers each, as ((0, 2.5), (0, 1))') from None
+		raise TypeError(f'sectionForces: cut = {brief(cut)} must be (position, normal), two or three numbers each, as ((0, 2.5), (0, 1))') from None
 	size = np.linalg.norm(normal)
 	if place.shape != (3, ) or normal.shape != (3, ) or not (np.isfinite([place, normal]).all() and size > 0):
-		raise ValueError(f'sectionForces: cut = {brief(cut)}: a place and a normal of finite numbers are needed, and the normal must not be zero')
+		raise ValueError(f'sectionForces: cut = {brief(cut)}: a position and a normal of finite numbers are needed, and the normal must not be zero')
 	return place, normal / size
 
 

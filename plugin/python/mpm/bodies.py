@@ -21,7 +21,7 @@ def bodyNumber(caller, name, region, grid):
 	try:
 		_addSurface(known, surface(region, dim=grid.dim), grid.dim)
 	except ValueError as error:
-		raise ValueError(f"{caller}: body = '{name}' needs the surface of its region, by which others meet it: {str(error).removeprefix('surface: ')}") from None
+		raise ValueError(f"{caller}: body = '{name}' needs the surface of its region, for contact with others: {str(error).removeprefix('surface: ')}") from None
 	grid.bodies = bodies
 	return bodies.index(known)
 

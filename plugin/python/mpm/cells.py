@@ -32,7 +32,7 @@ def refinementsAt(positions, grid, halvings=1, way=None, margin=None):
 	bodies = bodiesIn(positions)
 	if bodies: return [box for body in bodies for box in _around(body, grid, halvings, (0, 0, 0) if way is None else way, margin)]
 	for name, value in ('way', way), ('margin', margin):
-		if value is not None: raise ValueError(f'refinementsAt: {name} = {brief(value)} goes with bodies, and positions are places')
+		if value is not None: raise ValueError(f'refinementsAt: {name} = {brief(value)} goes with bodies, and positions are points')
 	try:
 		places = np.asarray(positions, float)
 	except (TypeError, ValueError):

@@ -81,7 +81,7 @@ class _Body:
 		self.solver, self.motion, self.grid, self.h, self.dt = solver, motion, solver.grid, solver.grid.cellSize, stepOf(solver)
 		self.points, self.materials, self.material = withMaterials(solver.mask)
 		if not len(self.points['id']): raise ValueError(noPoints('freeField', solver))
-		if 'velocity' in self.points and np.abs(self.points['velocity']).max() > 0: raise ValueError('freeField: the body moves already; columns of free ground begin at rest, so make them before the first step in time')
+		if 'velocity' in self.points and np.abs(self.points['velocity']).max() > 0: raise ValueError('freeField: the body moves already; columns of free ground begin at rest, so make them before the first time step')
 		pos, half = self.points['pos'], self.points['halfSize']
 		self.left, self.right = self._line('left', (pos - half)[:, 0].min(), 0), self._line('right', (pos + half)[:, 0].max(), 0)
 		self.bottom = self._line('lower', (pos - half)[:, 1].min(), 1)
@@ -104,11 +104,11 @@ class _Body:
 		if getattr(one, 'surface', None) is not None: return False
 		if one.min[0] <= self.left and one.max[0] >= self.right:
 			if self.motion is not None and one.max[1] >= self.bottom and 'x' in getattr(one, 'fix', 'x'):
-				raise ValueError(f'freeField: {name} holds or absorbs at the base, and so would the edge of motion: leave one of them out')
+				raise ValueError(f'freeField: {name} constrains or absorbs at the base, and so would the edge of motion: leave one of them out')
 			return True
 		for side in self.left, self.right:
 			if one.min[0] <= side <= one.max[0] and one.max[1] > self.bottom and 'x' in getattr(one, 'fix', 'x'):
-				raise ValueError(f'freeField: {name} holds or absorbs the side at x = {side:g} m: leave it out, the edges that are returned take its place')
+				raise ValueError(f'freeField: {name} constrains or absorbs the side at x = {side:g} m: leave it out, the edges that are returned take its place')
 		return False
 
 

@@ -116,7 +116,7 @@ class histories:
 		:raises ValueError: as spectrum(); a point that there is not; a base that does not move.
 		"""
 		for name, place in ('point', point), ('base', base):
-			if not isinstance(place, (int, np.integer)) or isinstance(place, bool) or not 0 <= place < len(self.ids): raise ValueError(f'histories.amplification: {name} = {brief(place)} must be a place in h.ids, 0 to {len(self.ids) - 1}')
+			if not isinstance(place, (int, np.integer)) or isinstance(place, bool) or not 0 <= place < len(self.ids): raise ValueError(f'histories.amplification: {name} = {brief(place)} must be an index in h.ids, 0 to {len(self.ids) - 1}')
 		frequencies, found = self.spectrum(field, frequencies)
 		below = found[:, base]
 		largest = np.abs(below).max()

@@ -273,7 +273,7 @@ def _requireNoShear(test, trial, allowed):
 	"""Sides that only press bear no shear stress: a body whose law answers with some would be sheared."""
 	shear = np.abs(trial.kirchhoff - np.diag(np.diag(trial.kirchhoff))).max()
 	if test.isSmooth and shear > max(allowed, 1e-6 * np.linalg.norm(trial.kirchhoff)):
-		raise _NoSolution(f'the stress of the law has other axes than the test: a shear stress of {shear:.3g} Pa would shear the body, which no side of it holds')
+		raise _NoSolution(f'the stress of the law has other axes than the test: a shear stress of {shear:.3g} Pa would shear the body, which no side of it bears')
 
 
 def _roundOff(trial):

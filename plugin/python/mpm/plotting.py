@@ -71,7 +71,7 @@ def plot(field='displacement', deformed=True, grid=False, ghost=False, fileName=
 	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter), section.normal is not None)
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
-	if dots: ax.plot([], [], 'o', color=_cellColour, label=f'dots: {dots} points drawn out, more than {needles.longest} : 1')
+	if dots: ax.plot([], [], 'o', color=_cellColour, label=f'dots: {dots} points strongly stretched, more than {needles.longest} : 1')
 	if ghost: _drawFaces(ax, section, solver)
 	places = points['pos' if deformed else 'pos0'][kept][:, section.shown]
 	if levels is not None: drawContours(ax, places, values[kept], levels, 2 * points['halfSize0'].max() if solver.grid.dim == 3 else 2 * points['halfSize0'][:, :2].max())

@@ -134,7 +134,7 @@ def heightsOf(who, name, given, low, high, spacing):
 		except (TypeError, ValueError):
 			values = np.empty(0)
 		if values.ndim != 2 or np.min(values.shape) < 2: raise TypeError(f'{who}: {name} = {brief(given)} must be an array of heights, at least 2 by 2, with one row for each x')
-		if not np.isfinite(low).all(): raise ValueError(f'{who}: {name} is an array, which needs min, the place (x, y) of its first height')
+		if not np.isfinite(low).all(): raise ValueError(f'{who}: {name} is an array, which needs min, the position (x, y) of its first height')
 		return Heights(values, low, step, f'the array {name}', who)
 	return fromFile(pathOf(who, name, given), who)
 
@@ -206,7 +206,7 @@ class Heights:
 		if len(unknown):
 			x = self.low + self.steps * (unknown[0] + first)
 			raise ValueError(
-			        f'{self.who}: {self.name} has no height at {place(x)}, nor at {len(unknown) - 1} more of {part.size} places in the part that is wanted; '
+			        f'{self.who}: {self.name} has no height at {place(x)}, nor at {len(unknown) - 1} more of {part.size} points in the part that is wanted; '
 			        'fill the holes, or choose a part without by min and max'
 			)
 		self.values = np.nan_to_num(self.values)  # elsewhere heights have no weight

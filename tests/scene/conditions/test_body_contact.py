@@ -498,7 +498,7 @@ refusals = {
         "two(); O.engines[0].contacts = [MpmBodyContact(between=('low', 'up'), friction=0), MpmBodyContact(between=('up', 'low'), friction=0)]; O.step()": ['contacts[0]', 'contacts[1]', 'one is admitted'],
         "two(); O.bodies.erase(0); [O.bodies.erase(b.id) for b in list(O.bodies) if b.state.body == 1]; O.step()": ["'up'", 'no points'],
         "two(); O.engines[0].grid.bodies = ()": [],
-        "two(); mpm.strengthReduction(O.engines[0])": ['bodies of points meet'],
+        "two(); mpm.strengthReduction(O.engines[0])": ['contact between bodies of points'],
         "two(); O.step(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='up')": ['has made steps already'],
         "two(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='')": ['a name that is not empty'],
         "two(); up = O.engines[0].grid.bodies[1]; up.vertices = [np.array(x) - (0, 0.16, 0) for x in up.vertices]; O.step()": ['inside of body', 'must not overlap'],

@@ -150,7 +150,7 @@ if rank == 0: json.dump(dict(force=springs.resultant[1], y=mpm.arrays()['pos'][:
 	assert np.allclose(alone['y'], together['y'], atol=1e-9) and abs(alone['force'] - together['force']) < 1e-6 * weight
 	assert abs(found(divided, processes=2)['force'] - weight) < 1e-5 * weight
 	failed = yade(divided, 'different', processes=2, fails=True)
-	assert 'the processes hold different settings' in failed.stderr
+	assert 'the processes have different settings' in failed.stderr
 
 
 def test_it_hears_of_points_that_are_halved(yade):

@@ -138,8 +138,8 @@ print(json.dumps(moving))
 	parts = 'boundaries[3] moves by (0, -0.1) m', 'none of its nodes, from (-inf, 3) to (1, 4), carries soil', 'between (0, 0) and (2, 2)', 'put the box where'
 	assert all(words in run.result for words in parts), run.result
 	said = run.stdout + run.stderr
-	assert said.count('boundaries[3], from (-inf    3 -inf) to (  1   4 inf), holds no node of any material. It holds nothing until soil arrives there.') == 1, run
-	assert said.count('holds no node') == 1, run
+	assert said.count('boundaries[3], from (-inf    3 -inf) to (  1   4 inf), constrains no node of any material. It constrains nothing until soil arrives there.') == 1, run
+	assert said.count('constrains no node') == 1, run
 
 
 def test_a_loaded_scene_ends_at_the_same_step(yade):

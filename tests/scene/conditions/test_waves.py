@@ -117,7 +117,7 @@ print(json.dumps(result))
 mistakes = {
         'a boundary inside of the body': ("absorbing=[MpmAbsorbingBoundary(min=(-inf, 3, -inf), max=(inf, 3, inf))]", 'on both sides'),
         'a boundary beside the body': ("absorbing=[MpmAbsorbingBoundary(max=(inf, -3, inf))]", 'no face'),
-        'between the nodes': ("absorbing=[MpmAbsorbingBoundary(min=(-inf, .2, -inf), max=(inf, .3, inf))]", 'holds no grid node'),
+        'between the nodes': ("absorbing=[MpmAbsorbingBoundary(min=(-inf, .2, -inf), max=(inf, .3, inf))]", 'contains no grid node'),
         'swapped': ("absorbing=[MpmAbsorbingBoundary(min=(-inf, 1, -inf), max=(inf, 0, inf))]", 'swapped'),
         'a wave without history': ("absorbing=[MpmAbsorbingBoundary(motion=MpmBaseMotion(), **base)]", 'MpmBaseMotion.history'),
         'out of the plane': ("absorbing=[MpmAbsorbingBoundary(motion=MpmBaseMotion(history=history, direction=(0, 0, 1)), **base)]", 'no direction z'),

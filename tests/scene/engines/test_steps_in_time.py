@@ -193,7 +193,7 @@ found['static'] = text(lambda: O.run(1, wait=True))
 print(json.dumps(found))
 ''')
 	found = run.result
-	assert 'the step in time from O.time = 0.1 to 0.125 s (0.5 of O.dt' in found['cut'] and 'The scene is at 0.1 s' in found['cut']
+	assert 'the time step from O.time = 0.1 to 0.125 s (0.5 of O.dt' in found['cut'] and 'The scene is at 0.1 s' in found['cut']
 	assert 'equilibrium' not in found['cut'] and 'factor' not in found['cut']
 	assert (run.stdout + run.stderr).count('from O.time = 0.1 to 0.125 s') == 1  # in the result: YADE has not written it too
 	inside = re.search(r'absorbing\[0\] has material on both sides: behind it are (\S+) cells full, most of it in the cell around \((\S+) (\S+)\), of which it fills (\S+);', found['inside'])
@@ -260,7 +260,7 @@ print(json.dumps([speed, advice, broken]))
 	speed, advice, broken = run.result
 	assert speed[0] == pytest.approx(speed[1], rel=1e-3)
 	assert 'points, which should move less than half a cell' in advice[0] and 'averaged over' in advice[1] and 'short enough' in advice[2]
-	assert 'a step in time lasts 10 s (O.dt = 10)' in run.stdout + run.stderr
+	assert 'a time step lasts 10 s (O.dt = 10)' in run.stdout + run.stderr
 	assert 'residual nan' not in run.stderr and re.search(r'time \S+ s, step 3/3, \S+ elapsed, (\S+ left, )?(\S+ steps/s, )?96 points', run.stderr)
 	assert run.stderr.count('mpm.arrays() while the simulation runs') == 1
 	assert "'broken.yade.gz', of 7 bytes, cannot be read as a scene" in broken

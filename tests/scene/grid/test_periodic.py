@@ -107,7 +107,7 @@ refused = {
         'MpmGrid(cellSize=1, period=(-4, 0, 0))': ('ValueError', 'MpmGrid.period', '>= 0'),
         'MpmGrid(cellSize=1, period=(nan, 0, 0))': ('ValueError', 'MpmGrid.period', 'finite'),
         'layer(length=5); O.step()': ('ValueError', 'Body #', 'outside of the period', 'from 0 to 4 m', 'filled'),
-        "layer(boundaries=[MpmBoundary(min=(4.5, -inf, -inf), fix='x')]); O.step()": ('ValueError', 'holds no grid node', 'period'),
+        "layer(boundaries=[MpmBoundary(min=(4.5, -inf, -inf), fix='x')]); O.step()": ('ValueError', 'contains no grid node', 'period'),
         "layer(boundaries=[MpmBoundary(max=(0, inf, inf), fix='x', displacement=(1, 0, 0)), MpmBoundary(min=(4, -inf, -inf), fix='x')]); O.step()":
         ('ValueError', 'boundaries[0] and boundaries[1]', 'both boxes'),
         "layer(boundaries=[MpmBoundary(max=(inf, 0, inf), fix='y')]); O.step()": ('RuntimeError', 'translation along x'),

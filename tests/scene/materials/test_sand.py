@@ -166,7 +166,7 @@ assert np.abs(beside[:-1] - alone).max() < 1e-9 and np.array_equal(beside[-1][:2
 assert solver.report()['loosePoints'] == 1 and solver.report()['islands'] == 2
 ''')
 	output = said.stdout + said.stderr
-	assert output.count('nothing restrains points apart from the rest, or hanging on it by a corner of a cell (1, the first around (4') == 1, output
+	assert output.count('nothing restrains points apart from the rest, or connected to it by a corner of a cell (1, the first around (4') == 1, output
 
 
 def test_a_limit_load_is_told(yade):

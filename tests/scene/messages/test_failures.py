@@ -132,7 +132,7 @@ mistakes = [
         ('O.dt = float("nan")', 'O.dt = nan'),
         ('solver.grid = MpmGrid()', 'MpmGrid.cellSize = nan'),
         ('solver.grid.cellSize = 0.25', 'Body #0: MpmPoint.halfSize'),
-        ('solver.boundaries = [MpmBoundary(min=(0.2, 0.2, -1), max=(0.8, 0.8, 1), fix="x")]', 'holds no grid node'),
+        ('solver.boundaries = [MpmBoundary(min=(0.2, 0.2, -1), max=(0.8, 0.8, 1), fix="x")]', 'contains no grid node'),
         ('solver.boundaries = [MpmBoundary(fix="z")]', "no direction z"),
         ('solver.boundaries += (MpmBoundary(max=(inf, 0, inf), fix="y", displacement=(0, 1, 0)),)', 'different displacements along y'),
         ('O.bodies[7].state.pos = (float("nan"), 0, 0)', 'Body #7'),

@@ -207,7 +207,7 @@ doubted = [
         ('scene(gravity=(0, 0, 0)); mpm.assign(stress=np.tile(np.diag([0, -10., 0]), (64, 1, 1))); O.step()', ''),
         ('moving(gravity=(0, 0, 0)); O.step()', 'nothing acts on the material points'),
         ('moving(gravity=(0, 0, 0)); mpm.assign(velocity=np.tile((1e-3, 0, 0), (64, 1))); O.step()', ''),
-        ('scene(boundaries=[MpmBoundary(fix="xy")]); O.step(); O.step()', 'all nodes that material points touch are held'),
+        ('scene(boundaries=[MpmBoundary(fix="xy")]); O.step(); O.step()', 'all nodes that material points touch are constrained'),
         ('scene(boundaries=[MpmBoundary(fix="xy", displacement=(0.01, 0, 0))]); O.step()', ''),
         ('moving(); O.dt = 1e-8; O.step(); O.step()', "YADE's default, in which the fastest wave"),
         ('moving(scheme="explicit"); O.dt = 1e-8; O.step()', "YADE's default, in which the fastest wave"),

@@ -183,7 +183,7 @@ paths = [path.vertices[:-1] for path in matter.get_paths()]
 whole = 4 * np.prod(mpm.arrays()['halfSize0'][0, :2])
 print(json.dumps([[t.get_text() for t in ax.get_legend().get_texts()], [len(path) for path in paths], [area(paths[0]) / whole, area(paths[-1]) / whole], len(paths) == len(mpm.arrays()['id'])]))
 ''').result
-	assert names == ['dots: 1 points drawn out, more than 5 : 1'] and sides.count(12) == 1 and sides[-1] == 12 and kept
+	assert names == ['dots: 1 points strongly stretched, more than 5 : 1'] and sides.count(12) == 1 and sides[-1] == 12 and kept
 	assert abs(areas[0] - 1) < 1e-9 and abs(areas[1] - 12 / 3.141592653589793 * 0.25) < 0.01  # area of twelve corners on the circle
 
 

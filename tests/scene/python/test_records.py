@@ -202,8 +202,8 @@ assert (kept.time['acceleration'] == np.array(h.time)[np.linalg.norm(h['accelera
 height, ratio = h.overHeight()
 assert (np.diff(height) >= 0).all() and ratio[0] == 1 and ratio[-1] == largest[np.argsort(points['pos0'][:, 1], kind='stable')][-1] / largest[np.argsort(points['pos0'][:, 1], kind='stable')][0] > 1
 for call, expected in {
-		"h.spectrum('velocity')": 'one component', "h.spectrum(frequencies=[-1])": '> 0', "h.spectrum(frequencies=[60])": '50 Hz', "h.amplification(-1, 0)": 'place in h.ids',
-		"h.amplification(0, 1.5)": 'place in h.ids', "h.permanent(100)": '5 s that are recorded', "h.permanent(0)": 'more than 0', "h.largest('stress')": 'one component', "h.overHeight(axis=3)": '0, 1 or 2',
+		"h.spectrum('velocity')": 'one component', "h.spectrum(frequencies=[-1])": '> 0', "h.spectrum(frequencies=[60])": '50 Hz', "h.amplification(-1, 0)": 'index in h.ids',
+		"h.amplification(0, 1.5)": 'index in h.ids', "h.permanent(100)": '5 s that are recorded', "h.permanent(0)": 'more than 0', "h.largest('stress')": 'one component', "h.overHeight(axis=3)": '0, 1 or 2',
 		"h.amplification(top, base, 'velocity_z')": 'is 0 at all times', "h.spectrum('speed')": 'not recorded'}.items():
 	refused(lambda: eval(call), expected)
 ''')

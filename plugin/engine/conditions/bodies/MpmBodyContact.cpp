@@ -14,7 +14,7 @@ void MpmBodyContact::requireAdmissible() const
 {
 	Exposed<MpmBodyContact, MpmCondition>::requireAdmissible();
 	if (pressures.size() != shears.size() || slave < -1 || slave > 1)
-		throw std::invalid_argument("MpmBodyContact: what is kept of its pieces does not go together; is the saved file damaged?");
+		throw std::invalid_argument("MpmBodyContact: the stored data of its segments or triangles do not match; is the saved file damaged?");
 }
 
 std::shared_ptr<Condition<2>> MpmBodyContact::make(InPlane, const Group& group, const Analysis& analysis) const
@@ -42,7 +42,7 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 		if (pieces.empty() || int(pieces[0].size()) != analysis.grid->dim)
 			throw std::invalid_argument(gimpm::sentence(
 			        name, ".between: body '", body, "' has no surface of ", analysis.grid->dim == 2 ? "segments" : "triangles",
-			        ", by which others could meet it (MpmGrid.bodies[", number, "].pieces)."));
+			        " for the contact (MpmGrid.bodies[", number, "].pieces)."));
 	}
 	for (const Listed& other : analysis.conditions()) {
 		const auto* contact = dynamic_cast<const MpmBodyContact*>(other.condition.get());

@@ -22,9 +22,9 @@ public:
 	YADE_API_NAME(MpmBodyContact)
 	static const char* doc()
 	{
-		return "Contact of two bodies of points, filled with mpm.fill(..., body=...): where they meet they press, rub and part, while bodies without one "
+		return "Contact of two bodies of points, filled with mpm.fill(..., body=...): where they touch they press, rub and part, while bodies without one "
 		       "between them stick where they share cells. Each body has nodes of its own.\n\n"
-		       "Places on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body does not meet itself: it "
+		       "Contact points on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body has no contact with itself: it "
 		       "sticks.\n\n"
 		       "Set first: *between* = ('slab', 'ground') and *friction* [rad], then a step in which bodies move by a quarter of a cell. Page: "
 		       "plugin/docs/classes/MpmBodyContact.md.";
@@ -43,7 +43,8 @@ public:
 		v("force", &MpmBodyContact::force, readonly,
 		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");
-		v("touching", &MpmBodyContact::touching, readonly, "Number of places that touch, two on each piece of a surface, three in space.");
+		v("touching", &MpmBodyContact::touching, readonly,
+		  "Number of contact points that touch, two on each segment of a surface, three on each triangle.");
 		v("slipping", &MpmBodyContact::slipping, readonly, "Number of those at the limit of friction.");
 		v("slave", &MpmBodyContact::slave, readonly,
 		  "Body of *between* that has the contact points, 0 or 1: the softer one, of equal ones the first; -1 before the first step.");

@@ -25,7 +25,7 @@ template <int Dim> void MeetingBodies<Dim>::hold(gimpm::Model<Dim>& model)
 		if (layers[body + 1] > gimpm::Grid<Dim>::mostLayer)
 			throw std::invalid_argument(gimpm::sentence(
 			        "contacts: more than ", gimpm::Grid<Dim>::mostLayer + 1,
-			        " bodies of points with nodes of their own, as those that meet each other or are named by a condition, as body '",
+			        " bodies of points with nodes of their own, as those in contact with each other or named by a condition, as body '",
 			        grid.bodies[body]->name, "' is, cannot be numbered."));
 	model.layers = layers;
 }

@@ -100,7 +100,7 @@ string MpmBoundary::idleness(const string& name, bool reaches) const
 	if (reaches) return "";
 	const auto [lower, upper] = *extent();
 	return gimpm::sentence(
-	        " ", name, ", from (", lower.transpose(), ") to (", upper.transpose(), "), holds ", surface ? "no material" : "no node of any material",
+	        " ", name, ", from (", lower.transpose(), ") to (", upper.transpose(), "), constrains ", surface ? "no material" : "no node of any material",
 	        body.empty() ? "" : " of body '" + body + "'", ".");
 }
 
@@ -131,7 +131,7 @@ namespace {
 		if (edge <= line + little || edge > place + little) return "";
 		return gimpm::sentence(
 		        name, sign > 0 ? ".max[" : ".min[", axis, "] = ", face,
-		        " m, where the soil ends, is on no line of the grid: the soil is held at the next one, ",
+		        " m, where the soil ends, is on no line of the grid: the soil is constrained at the next one, ",
 		        grid.origin[axis] + sign * line * grid.cellSize, " m, ", edge - line,
 		        " cells away, through cells that are filled in part, and is too soft there. Let MpmGrid.origin and cellSize put a line on it, or give "
 		        "MpmBoundary(surface=...).");

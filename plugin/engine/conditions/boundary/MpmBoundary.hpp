@@ -25,9 +25,9 @@ public:
 	YADE_API_NAME(MpmBoundary)
 	static const char* doc()
 	{
-		return "Essential boundary condition: every grid node inside a box that is fixed in space is held, or moved, in the directions *fix*; or, with "
+		return "Essential boundary condition: every grid node inside a box that is fixed in space is constrained, or moved, in the directions *fix*; or, with "
 		       "*surface*, the material at a wall that need not be on the lines of the grid.\n\n"
-		       "A box that holds no node is an error. A face of a cell whose nodes are all held along its normal is a wall, inside of a body too: points "
+		       "A box that contains no node is an error. A face of a cell whose nodes are all constrained along its normal is a wall, inside of a body too: points "
 		       "do not reach through it.\n\n"
 		       "Set first: *fix*, and *min* or *max* on a line of the grid, as max=(0, inf, inf), fix='x': rollers at x = 0. Nodes push soil by half a "
 		       "cell; farther goes an MpmContact. Page: plugin/docs/classes/MpmBoundary.md.";
@@ -37,21 +37,21 @@ public:
 		v("min", &MpmBoundary::min, 0, "Lower corner of the box [m]; -inf, the default, where it has no limit.", notNaN);
 		v("max", &MpmBoundary::max, 0, "Upper corner of the box [m]; inf, the default, where it has no limit.", notNaN);
 		v("fix", &MpmBoundary::fix, 0,
-		  "Directions that are held: one or more of the letters x, y, z, each at most once, or 'n', the normal of *surface*; without default.",
+		  "Constrained directions: one or more of the letters x, y, z, each at most once, or 'n', the normal of *surface*; without default.",
 		  admitting("one or more of the letters x, y, z, each at most once, or n", namesDirections));
 		v("displacement", &MpmBoundary::displacement, 0,
-		  "Displacement [m] of the held nodes at load factor 1, along *fix*. They stay in place: pushed soil follows for half a cell, then the step fails "
+		  "Displacement [m] of the constrained nodes at load factor 1, along *fix*. They stay where they are: pushed soil follows for half a cell, then the step fails "
 		  "('detached').",
 		  finite);
 		v("curve", &MpmBoundary::curve, 0,
 		  "Factor [-] of *displacement* as *MpmImplicitEngine.loadCurve*, where it shall not go with the loads; empty, the default: it does.",
 		  curveOrNothing);
 		v("motion", &MpmBoundary::motion, 0,
-		  "History of the velocity of the held nodes (MpmBaseMotion), of MpmDynamicEngine; None, the default: they do not move by one.");
+		  "History of the velocity of the constrained nodes (MpmBaseMotion), of MpmDynamicEngine; None, the default: they do not move by one.");
 		v("body", &MpmBoundary::body, 0,
-		  "Body of points that it holds alone, as given to mpm.fill(..., body=...), where bodies meet (MpmBodyContact); empty, the default: all.");
+		  "Body of points that it constrains alone, as given to mpm.fill(..., body=...), with contact between bodies (MpmBodyContact); empty, the default: all.");
 		v("surface", &MpmBoundary::surface, 0,
-		  "Wall instead of a box: MpmSurface, points, triangles or gts.Surface; None, the default: the box. Each boundary has its own. It holds soil on both sides, and "
+		  "Wall instead of a box: MpmSurface, points, triangles or gts.Surface; None, the default: the box. Each boundary has its own. It constrains soil on both sides, and "
 		  "against pull too.");
 		v("velocity", &MpmBoundary::velocity, 0, "Velocity of *surface* and of the soil that it constrains [m per s of O.time], finite.", finite);
 		v("penalty", &MpmBoundary::penalty, 0, "Stiffness of *surface* [-] > 0: it gives way by pressure / (penalty young) cells [-].", positive);
@@ -85,7 +85,7 @@ public:
 	string needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
 	string needsOneBody(const string& name) const override
 	{
-		return surface && body.empty() ? name + ".surface without the body that it holds (MpmBoundary.body)" : "";
+		return surface && body.empty() ? name + ".surface without the body that it constrains (MpmBoundary.body)" : "";
 	}
 	string                   onlyOn() const override { return body; }
 	const Serializable*      ownSurface() const override { return surface.get(); }

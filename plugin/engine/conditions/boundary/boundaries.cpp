@@ -59,7 +59,7 @@ template <int Dim> void Boundaries<Dim>::requireFittingBases(const gimpm::Model<
 				if (const auto found = bases.find(other); other != b && boxes[other].fixed[axis] && boxes[b].meets(boxes[other])
 				    && (found == bases.end() || found->second != history))
 					throw std::invalid_argument(
-					        name + " and boundaries[" + std::to_string(other) + "] hold the same nodes along " + "xyz"[axis]
+					        name + " and boundaries[" + std::to_string(other) + "] constrain the same nodes along " + "xyz"[axis]
 					        + ", of which only one moves by that MpmBaseMotion: give both the same, or let sides be periodic (MpmGrid.period).");
 		}
 	}

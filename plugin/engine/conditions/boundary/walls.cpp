@@ -35,7 +35,7 @@ template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& b
 	if (model.ghost.factor == 0)
 		throw std::invalid_argument(
 		        name
-		        + ".surface may hold nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
+		        + ".surface may constrain nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
 		          "ghost.factor=0.");
 	requireFitting<Dim>(boundary, name);
 	requireWithinPeriod<Dim>(boundary, name, grid);

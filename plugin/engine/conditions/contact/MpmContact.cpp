@@ -33,16 +33,16 @@ void MpmContact::requireAdmissible() const
 	const size_t n = bodies.size();
 	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
 	                           poses.size() / 7, stiffnesses.size() / 36 })
-		if (size != n) throw std::invalid_argument("MpmContact: what is kept of the bodies does not go together; is the saved file damaged?");
+		if (size != n) throw std::invalid_argument("MpmContact: the stored data of the bodies do not match; is the saved file damaged?");
 	if (turns.size() % turnWidth != 0)
-		throw std::invalid_argument("MpmContact: what is kept of the turns of places is incomplete; is the saved file damaged?");
+		throw std::invalid_argument("MpmContact: the stored rotations of the bodies are incomplete; is the saved file damaged?");
 	if (records.empty()) return;
 	if (!ContactRecordOfPlace::areIn(records))
 		throw std::invalid_argument(
-		        "MpmContact: what is kept of what touches is that of an earlier revision, by corners of domains, and cannot be gone on with. Give the engine a new one, as solver.contacts = [MpmContact(...)]: "
+		        "MpmContact: the stored contact is that of an earlier revision, by corners of domains, and cannot be used. Give the engine a new one, as solver.contacts = [MpmContact(...)]: "
 		        "its bodies begin without force where they are.");
 	if (records.size() % ContactRecordOfPlace::width != 1)
-		throw std::invalid_argument("MpmContact: what is kept of the places that touch is incomplete; is the saved file damaged?");
+		throw std::invalid_argument("MpmContact: the stored contact points are incomplete; is the saved file damaged?");
 }
 
 bool MpmContact::countsSeconds(const Scene& scene) const
@@ -158,7 +158,7 @@ vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
 string MpmContact::idleness(const string& name, bool) const
 {
 	if (std::any_of(touching.begin(), touching.end(), [](int places) { return places > 0; })) return "";
-	return " " + name + " touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
+	return " " + name + " touches nothing yet: a body supports the soil that it touches, and by friction (MpmContact.friction) also along its surface.";
 }
 
 // Sums, and of bodies that do not move freely also one by one, but of nodes, of which there are many.

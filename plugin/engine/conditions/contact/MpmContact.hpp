@@ -61,7 +61,7 @@ public:
 		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
 		v("impulses", &MpmContact::impulses, readonly,
 		  "Impulse [N s] that the stiffness handed over to a free body by MpmImplicitEngine has added in the iterations between the last two load steps; MpmDynamicEngine hands none over.");
-		v("touching", &MpmContact::touching, readonly, "Number of places on each of *bodies*, a quarter of a cell apart, that soil touches.");
+		v("touching", &MpmContact::touching, readonly, "Number of contact points on each of *bodies*, a quarter of a cell apart, that soil touches.");
 		v("slipping", &MpmContact::slipping, readonly, "Number of those at the limit of friction.");
 		v("poses", &MpmContact::poses, hidden, "");
 		v("stiffnesses", &MpmContact::stiffnesses, hidden, "");

@@ -90,8 +90,8 @@ template <> MassOfBody massOf(const Body& owner, const Scene& scene, const gimpm
 	const Real size = std::sqrt(polar / section);
 	if (!grid.axisymmetric && moment.head<2>().norm() > 1e-6 * section * size)
 		throw std::invalid_argument(gimpm::sentence(
-		        "Body #", owner.id, ", a clump, has the middle of its mass elsewhere in the plane than in space, by ",
-		        moment.head<2>().norm() / section, " m: give its members the same extent along z."));
+		        "Body #", owner.id, ", a clump, has its centre of mass elsewhere in the plane than in space, by ", moment.head<2>().norm() / section,
+		        " m: give its members the same extent along z."));
 	const Real scale = owner.state->mass / volume; // one, but where the mass was given or members overlap
 	return { scale * section, Vector3r(0, 0, scale * polar) };
 }

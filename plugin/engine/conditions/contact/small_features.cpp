@@ -38,7 +38,7 @@ namespace {
 	{
 		return gimpm::sentence(
 		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
-		        " m). What it meets depends on where in a cell it is, by a sixth, and a ball of less than half a cell may meet nothing or be pulled. "
+		        " m). Its contact force depends on its position in a cell, by a sixth, and a ball of less than half a cell may get none or be pulled. "
 		        "Cells of at most ",
 		        body.thickness() / 2, " m resolve it.");
 	}
@@ -56,7 +56,7 @@ namespace {
 		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
 		        body.name, " presses by an edge or a tip of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
-		        " m). What it meets there depends on where in a cell it is, by ", reach < cellSize ? "a fifth or more" : "a tenth",
+		        " m). Its contact force there depends on its position in a cell, by ", reach < cellSize ? "a fifth or more" : "a tenth",
 		        ". Cells of at most ", reach / 5, " m, or five times that depth, make it a twentieth.");
 	}
 
@@ -66,7 +66,7 @@ namespace {
 		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
 		        body.name, " presses by a border of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
-		        " m). What it meets there depends on where in a cell it is, by up to a sixth, and smaller cells do not change that, as soil on both of "
+		        " m). Its contact force there depends on its position in a cell, by up to a sixth, and smaller cells do not change that, as soil on both of "
 		        "its sides moves as one. A Box, or a closed mesh of Facets, that has its thickness can be resolved.");
 	}
 }

@@ -32,7 +32,7 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 	if (std::isfinite(pressureTolerance) && analysis.newton->stepTolerance == 0)
 		throw std::invalid_argument(
 		        "MpmFlow.pressureTolerance = " + textOf(pressureTolerance)
-		        + " goes with the error of displacements, and MpmNewton.stepTolerance = 0: give that, too, or leave pressureTolerance = inf.");
+		        + " needs the error of displacements, and MpmNewton.stepTolerance = 0: give that, too, or leave pressureTolerance = inf.");
 }
 
 std::shared_ptr<Condition<2>> MpmFlow::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Flows<2>>(group); }

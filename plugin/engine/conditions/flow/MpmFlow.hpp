@@ -35,12 +35,12 @@ public:
 		v("bulkModulus", &MpmFlow::bulkModulus, 0, "Bulk modulus of the water [Pa] > 0; inf, the default: it keeps its volume.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
 		v("stabilisation", &MpmFlow::stabilisation, 0,
-		  "Penalty [-] >= 0 on pressures that change from node to node, over the inverse of the constrained modulus; 0: none. NaN, the default: 1, in steps in time 0.1.",
+		  "Penalty [-] >= 0 on pressures that change from node to node, over the inverse of the constrained modulus; 0: none. NaN, the default: 1, with inertia 0.1.",
 		  admitting("a finite number >= 0, or NaN, the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 		v("ghost", &MpmFlow::ghost, 0, "Penalty [-] >= 0 on jumps of the pressure's gradient at nearly empty cells, as *MpmGhost.factor*.",
 		  nonNegative);
 		v("pressureTolerance", &MpmFlow::pressureTolerance, 0,
-		  "Largest estimated error of pressures in a step [Pa] > 0, with *MpmNewton.stepTolerance*; steps beyond it are cut, and grow again, up to O.dt. inf: not looked at.",
+		  "Largest estimated error of pressures in a step [Pa] > 0, with *MpmNewton.stepTolerance*; steps beyond it are cut, and grow again, up to O.dt. inf: not checked.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
 		v("drains", &MpmFlow::drains, 0, "Drains, through which water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
 		v("waterIn", &MpmFlow::waterIn, readonly,

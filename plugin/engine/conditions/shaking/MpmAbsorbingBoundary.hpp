@@ -21,9 +21,9 @@ public:
 	{
 		return "Edge of the body where waves leave it, of MpmDynamicEngine: the faces of cells whose nodes are all inside a box get dashpots (Lysmer and "
 		       "Kuhlemeyer 1969), as if the body went on beyond. With *motion* a wave comes from there (Joyner and Chen 1975).\n\n"
-		       "Forces by which its nodes are out of balance when it first acts, those of a boundary that held them until then, go on acting. Points do "
+		       "Forces by which its nodes are out of balance when it first acts, those of a boundary that constrained them until then, go on acting. Points do "
 		       "not reach through it.\n\n"
-		       "Set first: a box that holds the outermost row of nodes, as max=(0, inf, inf), and far from what yields. Page: "
+		       "Set first: a box that contains the outermost row of nodes, as max=(0, inf, inf), and far from what yields. Page: "
 		       "plugin/docs/classes/MpmAbsorbingBoundary.md.";
 	}
 	template <class V> static void attributes(V&& v)

@@ -13,7 +13,7 @@ public:
 	YADE_API_NAME(MpmBaseMotion)
 	static const char* doc()
 	{
-		return "History of a velocity, by which nodes that a MpmBoundary holds move, or of the wave that comes through a MpmAbsorbingBoundary.\n\n"
+		return "History of a velocity, by which nodes that an MpmBoundary constrains move, or of the wave that comes through a MpmAbsorbingBoundary.\n\n"
 		       "Set first: *history* of velocities [m/s] over time [s], as read by mpm.readHistory; a record of accelerations has to be integrated before. "
 		       "Page: plugin/docs/classes/MpmBaseMotion.md.";
 	}

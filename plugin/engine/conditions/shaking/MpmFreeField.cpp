@@ -38,7 +38,7 @@ void MpmFreeField::requireFitting(const Analysis& analysis, const string& name) 
 {
 	string what;
 	if (!analysis.isDynamic())
-		what = "MpmImplicitEngine, whose steps are not in time: hold the edges by MpmBoundary there, and take MpmDynamicEngine after it";
+		what = "MpmImplicitEngine, whose steps are static: constrain the edges by MpmBoundary there, and take MpmDynamicEngine after it";
 	else if (analysis.isExplicit())
 		what = "scheme='explicit', as its dashpots join several nodes: take 'newmark' or 'generalised-alpha'";
 	else if (analysis.grid->axisymmetric)

@@ -25,7 +25,7 @@ public:
 	{
 		return "Edge that moves with the body, beyond which the ground goes on, among the *loads* of MpmDynamicEngine: dashpots (Lysmer and Kuhlemeyer "
 		       "1969) and springs against what moves otherwise than free ground, whose stress acts on the body. Soil does not cross it.\n\n"
-		       "What has held the body there goes on acting, as of MpmAbsorbingBoundary. Plane strain.\n\n"
+		       "Forces that constrained the body there go on acting, as with MpmAbsorbingBoundary. Plane strain.\n\n"
 		       "Set first: nothing, mpm.freeField(solver, until=...) makes both sides and the base. Page: plugin/docs/classes/MpmFreeField.md.";
 	}
 	template <class V> static void attributes(V&& v)

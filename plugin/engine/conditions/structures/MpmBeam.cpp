@@ -100,7 +100,7 @@ void MpmBeam::requireShell(const string& name) const
 		what = ": its first vertex is on the axis, where headForce has a y alone and headMoment is 0";
 	if (!what.empty()) throw std::invalid_argument(name + what + ".");
 	for (const Vector3r& hinge : placesOf(hinges))
-		if (isOnAxis(hinge)) throw std::invalid_argument(name + ".hinges has " + textOf(hinge) + ", a place on the axis, where nothing turns.");
+		if (isOnAxis(hinge)) throw std::invalid_argument(name + ".hinges has " + textOf(hinge) + ", a point on the axis, where nothing turns.");
 }
 
 std::shared_ptr<Condition<2>> MpmBeam::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Beams>(group); }

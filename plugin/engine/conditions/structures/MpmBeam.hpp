@@ -58,8 +58,8 @@ public:
 		  nonNegative);
 		v("prestress", &B::prestress, 0,
 		  "Axial force [N] that it has as it is put in, tension positive: of a tendon along it, or of a jack. Not of a shell.", finite);
-		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
-		  admitting("places of two or three numbers, all finite", arePoints));
+		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these points [m].",
+		  admitting("points of two or three numbers, all finite", arePoints));
 		v("fixHead", &B::fixHead, 0, "Constrained components of its first vertex: letters out of 'xyr', r for its rotation.",
 		  admitting("letters out of 'xyr'", areFixed));
 		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));

@@ -38,7 +38,7 @@ void MpmReinforcement::requireFitting(const Analysis& analysis, const string& na
 	if (freeLength > 0 && !headPlate && pull == 0)
 		throw std::invalid_argument(
 		        name + ".freeLength = " + textOf(freeLength)
-		        + ": nothing holds its head. Give headPlate=True or a pull, or fix it to a wall by MpmBeam.anchors.");
+		        + ": nothing supports its head. Give headPlate=True or a pull, or fix it to a wall by MpmBeam.anchors.");
 }
 
 std::shared_ptr<Condition<2>> MpmReinforcement::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Reinforcements<2>>(group); }

@@ -68,7 +68,7 @@ public:
 		v("vertices", &B::vertices, readonly, "Positions of its vertices now [m]; empty before the first step.", AnyValue());
 		v("axialForces", &B::axialForces, readonly, "Force [N] between each vertex and the next one, tension positive.", AnyValue());
 		v("slips", &B::slips, readonly, "Displacement of each vertex against the soil [m], positive away from the head.", AnyValue());
-		v("bondForces", &B::bondForces, readonly, "Force [N] by which the soil holds each vertex that slips, positive towards the head.", AnyValue());
+		v("bondForces", &B::bondForces, readonly, "Force [N] of the soil on each vertex that slips, positive towards the head.", AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
 		v("strains", &B::strains, hidden, "", AnyValue());
 		v("isStressed", &B::isStressed, hidden, "", AnyValue());

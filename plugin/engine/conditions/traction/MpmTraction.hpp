@@ -35,7 +35,7 @@ public:
 		v("curve", &MpmTraction::curve, 0,
 		  "Load factor [-] as a sequence of (time [s], factor), as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
 		v("body", &MpmTraction::body, 0,
-		  "Body of points that it acts on, as given to mpm.fill(..., body=...), where bodies meet (MpmBodyContact); empty, the default: the one that all of the "
+		  "Body of points that it acts on, as given to mpm.fill(..., body=...), with contact between bodies (MpmBodyContact); empty, the default: the one that all of the "
 		  "surface lies on.");
 		v("resultant", &MpmTraction::resultant, readonly,
 		  "Force [N] on the body at the end of the last converged step; per metre of thickness in plane strain, NaN before the first.");
