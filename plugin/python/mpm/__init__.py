@@ -65,42 +65,43 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from yade import wrapper as _wrapper
 
-from . import processes
-from .advice import advise
-from .bending import sectionForces
-from .calibration import calibrate
-from .cells import refinementsAt
-from .collecting import collect, note
-from .colouring import colour
-from .damping import rayleigh, schemeDamping
-from .data import arrays, assign, contactForces
-from .diagrams import diagram
-from .discretisation import discretisationError, stressError
-from .files import load, save
-from . import ending, stages
-from .filling import add, fill
+from .base import processes
+from . import ending
+from .analysis.advice import advise
+from .analysis.bending import sectionForces
+from .analysis.darcy import seepage
+from .analysis.discretisation import discretisationError, stressError
+from .analysis.safety import strengthReduction
+from .base.naming import didYouMean as _didYouMean, telling as _telling, tellShortNames as _tellShortNames
+from .earthquake.damping import rayleigh, schemeDamping
+from .earthquake.freefields import freeField
+from .earthquake.records import record
 from .finding import examples
-from .freefields import freeField
-from .geostatics import geostatic
-from .histories import histories, readHistory
-from .laboratory import elementTest, respond
-from .lawchecks import checkLaw
+from .geometry.cells import refinementsAt
+from .geometry.outline import polygon
+from .geometry.solids import solid
+from .geometry.surfaces import surface
+from .geometry.terrains import facets, terrain
+from .laboratory.calibration import calibrate
+from .laboratory.lawchecks import checkLaw
+from .laboratory.tests import elementTest, respond
+from .laboratory.typical import typicalSand
 from .library import engine as _engine
-from .movies import movie
-from .outline import polygon
-from .paraview import state
-from .peaks import peaks
-from .plotting import plot
-from .records import record
-from .safety import strengthReduction
-from .darcy import seepage
-from .solids import solid
-from .naming import didYouMean as _didYouMean, telling as _telling, tellShortNames as _tellShortNames
-from .surfaces import surface
-from .tables import export, frame
-from .terrains import facets, terrain
-from .typical import typicalSand
-from .viewing import view
+from .output.collecting import collect, note
+from .output.colouring import colour
+from .output.diagrams import diagram
+from .output.histories import histories, readHistory
+from .output.movies import movie
+from .output.paraview import state
+from .output.peaks import peaks
+from .output.plotting import plot
+from .output.viewing import view
+from .points import stages
+from .points.data import arrays, assign, contactForces
+from .points.files import load, save
+from .points.filling import add, fill
+from .points.geostatics import geostatic
+from .points.tables import export, frame
 
 __version__ = _engine.version
 __all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']

@@ -7,6 +7,8 @@ import time
 
 from yade import wrapper
 
+from .base.recorders import Film
+
 
 @atexit.register
 def _sayIfRunning():
@@ -27,8 +29,8 @@ def _sayIfRunning():
 @atexit.register
 def _sayWhatIsLeft():
 	"""Films that are not written, and stages of construction that no step has followed."""
-	for kind in 'viewing', 'movies':
-		for film in getattr(sys.modules.get('yade.mpm.' + kind), '_running', {}).values():
+	for kind in Film.__subclasses__():
+		for film in kind.kept.values():
 			sys.stderr.write(f'\nyade.mpm: {film.fileName!r} is not written, and its {film.frames} pictures are lost: call finish() of {type(film).__name__} after the run.\n')
 	engines = list(wrapper.Omega().engines)
 	for i, engine in enumerate(engines):

@@ -2,8 +2,8 @@
 """Scripts of the examples, found by words."""
 import re
 
-from .messages import brief
-from .naming import didYouMean
+from .base.messages import brief
+from .base.naming import didYouMean
 from .scripts import scripts
 
 # Words of other programs and trades, by what the examples call it

@@ -35,7 +35,7 @@ for level in (3, 6):
 	O.engines = [solver]
 	mpm.geostatic()
 	O.step()
-	points, fields = mpm.arrays(), __import__('sys').modules['yade.mpm.data'].fields()
+	points, fields = mpm.arrays(), __import__('sys').modules['yade.mpm.points.data'].fields()
 	depth = 4 - points['pos0'][:, 1]
 	p = weight * np.maximum(0, level - points['pos0'][:, 1])
 	total = 2e4 * depth + weight * max(0, level - 4)

@@ -110,7 +110,7 @@ try: O.step()
 except ValueError as error: said = str(error)
 steps = [O.iter]
 solver = bentBeam('iterative')
-mpm.advice._manyIterations = 1
+mpm.analysis.advice._manyIterations = 1
 advice = mpm.advise(solver)['advice']
 solver.newton.linearSolver = 'auto'
 O.step()

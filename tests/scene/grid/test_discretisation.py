@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from conftest import Yade, root
 
-sys.path.insert(0, str(root / 'plugin/python/mpm'))
+sys.path.insert(0, str(root / 'plugin/python/mpm/analysis'))
 from recovery import smoothed
 from refinement import errorOf
 

@@ -69,7 +69,7 @@ def test_tests_that_turn_back_and_weights(yade):
 	"""Unloading tells stiffness from strength; of two tests that contradict each other a weight says which is believed."""
 	assert yade(
 	        setting + '''
-from yade.mpm.laboratory import curveAt
+from yade.mpm.laboratory.tests import curveAt
 true = MpmMohrCoulombMat(**friction)
 there = np.concatenate([np.linspace(0, -.02, 11), np.linspace(-.018, -.01, 5), np.linspace(-.012, -.03, 10)])
 curve = curveAt('', true, 'triaxial', there, confiningPressure=1e5)

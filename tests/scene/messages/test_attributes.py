@@ -320,7 +320,7 @@ admitted = {
 setting = '''
 import json, os, sys
 from yade import mpm, pack, utils, wrapper
-from yade.mpm.data import table
+from yade.mpm.points.data import table
 nan = float('nan')
 
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmFreeField'

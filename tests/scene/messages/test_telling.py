@@ -84,7 +84,7 @@ refused = [
         ('s = scene(); O.step(); s.reactions[1]', 'IndexError', ['index out of range']),
         # positions without soil, cells without number
         ('scene(); mpm.histories([(70, 1, 0)])', 'ValueError', ['(70.0, 1.0, 0.0)', '66.3 m away', 'cellSize = 1 m']),
-        ("scene(); mpm.filling._room = lambda: 1e7; mpm.fill(pack.inAlignedBox((0, 0, -1), (200, 200, 1)), MpmGrid(cellSize=0.01), 2, 'soil')", 'ValueError', ['cellSize = 0.01 m', 'GiB are free']),
+        ("scene(); mpm.points.filling._room = lambda: 1e7; mpm.fill(pack.inAlignedBox((0, 0, -1), (200, 200, 1)), MpmGrid(cellSize=0.01), 2, 'soil')", 'ValueError', ['cellSize = 0.01 m', 'GiB are free']),
         # functions of yade.mpm
         ("mpm.plot(filename='x.png')", 'TypeError', ["plot: there is no argument 'filename'; did you mean 'fileName'?"]),
         ("mpm.fill(pack.inSphere((0, 0, 0), 1), MpmGrid(cellSize=1), pointPerCell=2, material='soil')", 'TypeError', ["fill: there is no argument 'pointPerCell'; did you mean 'pointsPerCell'"]),

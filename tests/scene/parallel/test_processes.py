@@ -271,7 +271,7 @@ def test_whatever_stops_one_process_in_adding_points_stops_all(yade):
 	"""Also what is no refusal: the material of a point that only one of them has is not in the list. The scene is as it was, and goes on."""
 	run = yade(
 	        setting + '''
-from yade.mpm.filling import _points
+from yade.mpm.points.filling import _points
 from yade.mpm.library import engine
 O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, label='soil'))
 solver = MpmImplicitEngine(grid=MpmGrid(cellSize=1), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], distributed=True, verbosity=0)
@@ -386,7 +386,7 @@ def test_the_first_process_writes_files_and_all_have_the_arrays(yade):
 solver = slope(2.0)
 O.engines += [MpmVtkRecorder(fileName='vtk/slope', iterPeriod=1, solver='solver')]
 written = []
-import yade.mpm.files as files
+import yade.mpm.points.files as files
 replacing = files.replacing
 def noted(file):
 	written.append(file)

@@ -351,7 +351,7 @@ print(json.dumps([table.shape, list(few.columns), table.attrs['units']['stress_y
 def test_whatAPointHasIsAColumn(yade):
 	"""An attribute that somebody adds to points is one of mpm.arrays; the initial volume follows from other columns, and what laws have of their own has columns by its names."""
 	attributes, columns = yade(scene + '''
-from yade.mpm.data import table
+from yade.mpm.points.data import table
 own = (set(MpmState().dict()) - set(State().dict())) | (set(MpmPoint().dict()) - set(Sphere().dict()))
 print(json.dumps([sorted(own), sorted(table)]))
 ''').result

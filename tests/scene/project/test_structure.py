@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Dependencies point downwards: python -> engine -> core, engine -> yade_api, and within the core from folder to folder. Functions stay short."""
+import ast
 import re
 import subprocess
 import warnings
@@ -36,6 +37,9 @@ engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'paral
 # and what Python asks for by name
 kindsOfConditions = {'bodies', 'boundary', 'contact', 'flow', 'shaking', 'structures', 'surface', 'traction', 'water'}
 knowKinds = {'MpmImplicitEngine.cpp', 'MpmDynamicEngine.cpp', 'module.cpp'}
+
+# the packages of Python: each may import from those before it
+packages = ['base', 'geometry', 'points', 'output', 'earthquake', 'analysis', 'laboratory']
 
 
 def sources(folder):
@@ -103,9 +107,38 @@ def test_onlyEnginesTakeAnEngine():
 	assert not wrong
 
 
-def test_foldersOfTheEngineAndOfTermsAreNotCrowded():
-	folders = [folder for part in ('engine', 'core/terms') for folder in (plugin / part).rglob('*') if folder.is_dir()]
+def test_foldersOfTheEngineOfTermsAndOfPythonAreNotCrowded():
+	folders = [folder for part in ('engine', 'core/terms', 'python') for folder in (plugin / part).rglob('*') if folder.is_dir()]
 	assert not [folder.name for folder in folders if sum(path.is_file() for path in folder.iterdir()) > 30]
+
+
+def importsOfPython():
+	"""(module, imported module) within yade.mpm, each as the parts of its path."""
+	top = plugin / 'python' / 'mpm'
+	paths = {(*path.relative_to(top).parent.parts, path.stem): path for path in top.rglob('*.py')}
+	for module, path in paths.items():
+		for node in ast.walk(ast.parse(path.read_text())):
+			if not isinstance(node, ast.ImportFrom) or not node.level: continue
+			base = module[:len(module) - node.level] + tuple(node.module.split('.') if node.module else ())
+			yield from ((module, target) for target in {base, *((*base, alias.name) for alias in node.names)} & paths.keys())
+
+
+def test_packagesOfPythonImportFromThoseBefore():
+	found = list(importsOfPython())
+	assert len(found) > 150 and {path.name for path in (plugin / 'python' / 'mpm').iterdir() if path.is_dir() and path.name != '__pycache__'} == set(packages)
+	arrows = {(one[0], other[0]) for one, other in found if len(one) == len(other) == 2 and one[0] != other[0]}
+	assert not [(one, other) for one, other in arrows if packages.index(other) > packages.index(one)]
+	assert len(list((plugin / 'python' / 'mpm').glob('*.py'))) <= 15
+
+
+def test_modulesOfPythonHaveNoCycle():
+	needs = {}
+	for one, other in importsOfPython():
+		needs.setdefault(one, set()).add(other)
+	while needs:
+		free = {module for module in needs if not needs[module] & needs.keys()}
+		assert free, f'a cycle in {sorted(needs)}'
+		needs = {module: others for module, others in needs.items() if module not in free}
 
 
 def test_testsAreInTheFoldersOfWhatTheyTest():

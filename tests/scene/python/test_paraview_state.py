@@ -46,7 +46,7 @@ O.engines += [MpmVtkRecorder(fileName='out/slope-', iterPeriod=5)]
 O.run(10, wait=True)
 mpm.state('out/stress.py', 'stress_xy')
 mpm.state('states/moved.py')
-from yade.mpm.paraview import formula
+from yade.mpm.output.paraview import formula
 points = mpm.arrays()
 print(json.dumps([float(points['stress'][:, 0, 1].min()), float(points['stress'][:, 0, 1].max()), float(np.linalg.norm(points['pos'] - points['pos0'], axis=1).max()),
 	[formula(*pair) for pair in (('displacement_y', 1), ('displacement', 1e-3), ('plasticStrain', 1), ('meanStress', 1e6), ('stress_zz', 1e3), ('defGrad_yx', 1))]]))

@@ -217,7 +217,7 @@ O.engines = [MpmDynamicEngine(grid=solver.grid, gravity=solver.gravity, boundari
 O.dt = 1e-3
 O.run(5, wait=True)
 result['time'] = drawn('velocity_y')[0].get_title()
-from yade.mpm.plotting import _across
+from yade.mpm.output.plotting import _across
 result['across'] = [int(_across(*case)) for case in (((0, 0, -10), (3, 2, 5)), ((0, 0, -10), (2, 3, 5)), ((1, 0, -10), (2, 2, 5)), ((0, -10, 0), (2, 9, 2)), ((0, 0, 0), (1, 2, 3)))]
 print(json.dumps(result))
 ''').result

@@ -70,7 +70,7 @@ def test_files_of_several_solids_are_read_with_all_their_digits(yade):
 	"""Two closed cubes in one text file have the volume of two; at coordinates of a national grid a text file loses no digit; what is cut off is refused."""
 	(both, far, likeVtk), messages = yade(build + '''
 import numpy as np
-from yade.mpm.solids import _ofStl
+from yade.mpm.geometry.solids import _ofStl
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 def moved(shift, name, file):
 	print('Solid', name, file=file)

@@ -349,8 +349,8 @@ def test_sameSourcesInAnotherFolderAreNotCompiledAgain(yade, second):
 	yade.command = str(second.overlay / 'bin/yade')
 	assert yade('from yade import mpm; print(mpm.__file__, MpmGrid())').stdout.splitlines()[-1].startswith(str(second.overlay / 'python/mpm'))
 	assert second.setup('--user') == ''
-	second.write('plugin/python/mpm/outline.py', second.read('plugin/python/mpm/outline.py') + '# more')
-	assert second.setup('--user') == f'Installed {second.overlay}/python/mpm/outline.py\n'
+	second.write('plugin/python/mpm/geometry/outline.py', second.read('plugin/python/mpm/geometry/outline.py') + '# more')
+	assert second.setup('--user') == f'Installed {second.overlay}/python/mpm/geometry/outline.py\n'
 
 
 def test_whatIsInstalledForAllUsersIsNotCompiledAgain(yade, second):

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Messages, names of arguments, processes, and the engine that a function works on."""
