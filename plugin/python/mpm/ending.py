@@ -30,7 +30,7 @@ def _sayIfRunning():
 def _sayWhatIsLeft():
 	"""Films that are not written, and stages of construction that no step has followed."""
 	for kind in Film.__subclasses__():
-		for film in kind.kept.values():
+		for film in kind._kept.values():
 			sys.stderr.write(f'\nyade.mpm: {film.fileName!r} is not written, and its {film.frames} pictures are lost: call finish() of {type(film).__name__} after the run.\n')
 	engines = list(wrapper.Omega().engines)
 	for i, engine in enumerate(engines):

@@ -22,11 +22,11 @@ def solvers():
 
 
 class Recorder:
-	"""Record of a run by a PyRunner at the end of ``O.engines``. A class has a name in scenes, and `kept`: the records of this process, by label."""
+	"""Record of a run by a PyRunner at the end of ``O.engines``. A class has a name in scenes, and `_kept`: the records of this process, by label."""
 
 	def __init_subclass__(cls, name=None):
 		if name is None: return
-		cls.kept, cls._name = {}, name
+		cls._kept, cls._name = {}, name
 		nameInScenes(name, cls.__module__)
 
 	def _start(self, call, label, every):
@@ -48,13 +48,13 @@ class Film(Recorder):
 
 	def _startFilm(self, every):
 		kind = type(self).__name__
-		self._label = next(label for label in (f'{kind}_{i}' for i in range(len(self.kept) + 1)) if label not in self.kept)
-		self.kept[self._label] = self
+		self._label = next(label for label in (f'{kind}_{i}' for i in range(len(self._kept) + 1)) if label not in self._kept)
+		self._kept[self._label] = self
 		self._start(f'add({self._label!r})', self._label, every)
 
 	def _finish(self):
-		if self._label not in self.kept: return
+		if self._label not in self._kept: return
 		self.add()
-		del self.kept[self._label]
+		del self._kept[self._label]
 		self._write()
 		wrapper.Omega().engines = [engine for engine in wrapper.Omega().engines if engine.label != self._label]

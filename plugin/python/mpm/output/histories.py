@@ -48,7 +48,7 @@ class histories(Recorder, name='histories'):
 	def _begin(self, columns):
 		self.time, self._values = [], {name: [] for name in self.record}
 		self.places = columns['pos'][np.minimum(np.searchsorted(columns['id'], self.ids), len(columns['id']) - 1)]
-		self.kept[self.label] = self
+		self._kept[self.label] = self
 		self._add(columns)
 
 	def _add(self, columns):
@@ -64,8 +64,8 @@ class histories(Recorder, name='histories'):
 	@staticmethod
 	def loaded(label='histories'):
 		"""The histories of a scene that was loaded, from there on."""
-		if label not in histories.kept: raise ValueError(f'histories: label = {brief(label)}: nothing has been recorded by that name; there are {list(histories.kept)}')
-		return histories.kept[label]
+		if label not in histories._kept: raise ValueError(f'histories: label = {brief(label)}: nothing has been recorded by that name; there are {list(histories._kept)}')
+		return histories._kept[label]
 
 	def __getitem__(self, name):
 		"""Array (times, points, ...) of a column; of a scalar name such as ``stress_xy`` (times, points)."""
@@ -200,7 +200,7 @@ class histories(Recorder, name='histories'):
 
 def add(label, ids, record, place=None, number=None):
 	"""For the PyRunner: the values of now. In a scene that was loaded they are the first. *number*: of the solver among those in O.engines, before which stages put engines; *place*: in O.engines, of scenes saved earlier."""
-	kept = histories.kept.get(label)
+	kept = histories._kept.get(label)
 	if kept and kept._isOfTheScene(): kept._add(fields(kept.solver.mask))
 	else:
 		again = histories.__new__(histories)

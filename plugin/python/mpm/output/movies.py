@@ -84,5 +84,5 @@ class movie(Film, name='movies'):
 
 def add(label):
 	"""For the PyRunner; of a scene that was loaded there is no film."""
-	film = movie.kept.get(label)
+	film = movie._kept.get(label)
 	if film and film._isOfTheScene(): film.add()

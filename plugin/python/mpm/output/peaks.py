@@ -41,7 +41,7 @@ class peaks(Recorder, name='peaks'):
 
 	def _begin(self):
 		self.ids, self._values, self.time = np.zeros(0, int), {name: np.zeros(0) for name in self.record}, {name: np.zeros(0) for name in self.record}
-		self.kept[self.label] = self
+		self._kept[self.label] = self
 		self._look()
 
 	def _look(self):
@@ -81,13 +81,13 @@ class peaks(Recorder, name='peaks'):
 	@staticmethod
 	def loaded(label='peaks'):
 		"""The peaks of a scene that was loaded, from there on."""
-		if label not in peaks.kept: raise ValueError(f'peaks: label = {brief(label)}: nothing has been recorded by that name; there are {list(peaks.kept)}')
-		return peaks.kept[label]
+		if label not in peaks._kept: raise ValueError(f'peaks: label = {brief(label)}: nothing has been recorded by that name; there are {list(peaks._kept)}')
+		return peaks._kept[label]
 
 
 def look(label, record, number):
 	"""For the PyRunner: the values of now. In a scene that was loaded they are the first. *number*: of the solver among those in O.engines."""
-	kept = peaks.kept.get(label)
+	kept = peaks._kept.get(label)
 	if kept and kept._isOfTheScene(): return kept._look()
 	again = peaks.__new__(peaks)
 	again.solver, again.label, again.record = solvers()[number], label, tuple(record)

@@ -228,5 +228,5 @@ def _ranges(given, fields):
 
 def add(label):
 	"""For the PyRunner; of a scene that was loaded there is no view."""
-	film = view.kept.get(label)
+	film = view._kept.get(label)
 	if film and film._isOfTheScene() and (film.solver.nDone - film._first) % film._every == 0: film.add()
