@@ -100,7 +100,7 @@ template <class V> void RunResults::results(V&& v)
 	v("residuals", &R::residuals, latest(&StepReport::residuals), byReport, readonly,
 	  "The same [-] before the first solve of the last step and after each.", any);
 	v("loadFactor", &R::loadFactor, Kept(), byReportAndPlot, readonly, "Load factor [-] of the last converged state.", finite);
-	v("activeCells", &R::activeCells, latest(&StepReport::populatedCells), byReport, readonly, "Cells that held material in the last step.", count);
+	v("activeCells", &R::activeCells, latest(&StepReport::populatedCells), byReport, readonly, "Cells with material in the last step.", count);
 	v("boundaryCells", &R::boundaryCells, latest(&StepReport::boundaryCells), byReport, readonly,
 	  "Those of them with an empty neighbour (0 without stabilisation).", count);
 	v("ghostFaces", &R::ghostFaces, latest(&StepReport::ghostFaces), byReport, readonly, "Faces stabilised in the last step.", count);

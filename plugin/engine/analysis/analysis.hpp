@@ -39,7 +39,7 @@ public:
 	virtual bool          isDynamic() const { return false; }
 	virtual bool          isExplicit() const { return false; }
 	virtual void          tellMotion(py::dict&) const { }
-	virtual std::uint64_t checksumInTime() const { return 0; } // settings of steps in time
+	virtual std::uint64_t checksumInTime() const { return 0; } // settings of time steps
 
 	// The engine.
 	virtual string            className() const         = 0;

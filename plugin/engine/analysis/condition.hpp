@@ -37,7 +37,7 @@ template <int Dim> struct Surroundings {
 struct StepTime {
 	Real from, to;                                       // load times
 	Real looked;                                         // when loads are looked at: at its end, or with the midpoint rule in its middle
-	Real energy = std::numeric_limits<Real>::infinity(); // energy that has come in before a step in time [J]; infinity: another step
+	Real energy = std::numeric_limits<Real>::infinity(); // energy that has come in before a time step [J]; infinity: another step
 };
 
 // A step that has been accepted.
@@ -50,7 +50,7 @@ template <int Dim> struct StepOutcome {
 	const vector<Vector3r>&      reactionsBefore;
 };
 
-// In a step in time [J], by what is made of it in the balance of energy.
+// Work in a time step [J], by its part in the balance of energy.
 struct Work {
 	Real ofLoads = 0, ofBoundaries = 0;
 	Real ofContacts = 0, given = 0; // given: part of that which no body has worked
@@ -82,7 +82,7 @@ template <int Dim> class Condition {
 public:
 	virtual ~Condition() = default;
 
-	// Nodes that it holds or lets go, before there are points.
+	// Constrains nodes or sets them free, before there are points.
 	virtual void hold(gimpm::Model<Dim>&) { }
 
 	// Makes it act in the steps of the model. std::invalid_argument names what cannot be computed with.
@@ -101,7 +101,7 @@ public:
 	// Before the state of an accepted step is kept: std::invalid_argument where that cannot be gone on with.
 	virtual void requireKept() const { }
 
-	// On the soil in the accepted step, while the points are still as before it; only in steps in time.
+	// Work on the soil in the accepted step, while the points are still as before it; only in time steps.
 	virtual Work work(const StepOutcome<Dim>&) const { return {}; }
 
 	// Writes an accepted state back.

@@ -69,7 +69,7 @@ public:
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);
 		v("loosePoints", &E::loosePoints, noSave | readonly,
-		  "Points of the last step in cells that hold too few to tell the velocities of their nodes, as those that fly alone.", AnyValue());
+		  "Points of the last step in cells with too few to tell the velocities of their nodes, as those that fly alone.", AnyValue());
 		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());
 		v("reactionsBefore", &E::reactionsBefore, hidden, "",
 		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));

@@ -13,7 +13,7 @@ struct Progress {
 	int         iterations, cuts;
 	double      residual; ///< NaN: nothing was solved
 	std::size_t points;
-	bool        inTime;       ///< a step in time: how many are made in a second is told, too
+	bool        inTime;       ///< a time step: how many are made in a second is told, too
 	bool        inBackground; ///< run by O.run(), so that nothing but the script's output can come between two steps
 	bool        ends;         ///< true if the run comes to its end with this step
 };

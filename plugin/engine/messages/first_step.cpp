@@ -73,7 +73,7 @@ namespace {
 		return "";
 	}
 
-	// F-bar holds the mean dilation of a cell alone; domains of the points' volume tie that of each point to it.
+	// F-bar keeps the mean dilation of a cell alone; domains of the points' volume tie that of each point to it.
 	string warningOfDrift(const Analysis& engine)
 	{
 		if (!engine.fBar || engine.basis != "mpm") return "";

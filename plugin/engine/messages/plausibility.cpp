@@ -232,7 +232,7 @@ void Plausibility::requireGrid(const Analysis& engine) const
 		       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
 }
 
-// Warning about implicit steps in time, which are stable however long they are, but see nothing of what is over within
+// Warning about implicit time steps, which are stable however long they are, but see nothing of what is over within
 // one.
 template <int Dim>
 string Plausibility::warningOfLength(

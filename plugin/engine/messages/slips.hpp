@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Faces of sand that a run holds, and limit analysis does not.
+// Faces of sand that stand in a run, and not by limit analysis.
 #include "core/stepping/model.hpp"
 #include "engine/points/MaterialPoints.hpp"
 

@@ -6,7 +6,7 @@
 
 namespace yade {
 
-// "grid": the cells that hold material; "ghostFaces": the faces that are stabilised; otherwise the picture of
+// "grid": the cells with material; "ghostFaces": the faces that are stabilised; otherwise the picture of
 // conditions of that kind (MpmCondition::picture): "loads", loaded surfaces; "walls", surfaces of boundaries;
 // "contacts", where points touch rigid bodies. With their fields.
 VtkCells gridCells(const string& kind, const Scene&, const Analysis&);

@@ -25,7 +25,7 @@ VtkCells pointDomains(
 // Columns that are fields of these points.
 vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);
 
-// The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane
+// The background grid where it has material, in the same configuration. `z` is the height of the plane in plane
 // strain.
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
 

@@ -9,7 +9,7 @@ namespace yade {
 // In a tag of the scene, so that it is saved, and known to whatever engine works on the points.
 struct Pieces {
 	int count = 0, number = 0; // number of processes, and of this one; none: it has all points
-	int bodies = 0;            // places in O.bodies. Bodies behind have been added since, by each process
+	int bodies = 0;            // numbers in O.bodies. Bodies behind have been added since, by each process
 	int gap    = 0;            // the first place of another process, or `bodies`
 
 	// None also where there are other bodies than those that were divided.

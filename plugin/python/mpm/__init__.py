@@ -16,7 +16,7 @@ is written more easily in Python. A slope under its own weight, with a weak laye
     O.engines = [
         MpmImplicitEngine(
             grid=grid, gravity=(0, -9.81, 0), ghost=MpmGhost(factor=1e-2), newton=MpmNewton(tolerance=1e-6, maxIterations=20),
-            boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'),  # rollers left and right, the base is held
+            boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'),  # rollers left and right, the base is constrained
                         MpmBoundary(min=(30, -inf, -inf), fix='x'),
                         MpmBoundary(max=(inf, 0, inf), fix='xy')])]
     O.dt = 1 / 80  # quasi-static: O.time is the load factor, one O.iter is one load step
@@ -49,7 +49,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :class:`peaks`               largest values of a run at all points, as a field
 :class:`record`              a record of an earthquake, corrected and integrated, as motion of a base
 :func:`freeField`            edges of a body that is shaken, beyond which free ground moves by itself
-:func:`rayleigh`             damping by mass and stiffness that has given ratios; :func:`schemeDamping` is what steps in time damp by themselves
+:func:`rayleigh`             damping by mass and stiffness that has given ratios; :func:`schemeDamping` is the damping of the time steps themselves
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run

@@ -53,7 +53,8 @@ template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact
 	return modulus[1] / volume[1] < (1 - 1e-9) * (modulus[0] / volume[0]) ? 1 : 0;
 }
 
-// Pairs of bodies in different layers, as both meet a third one or a condition names one, and without a contact.
+// Pairs of bodies in different layers, as both are in contact with a third one or a condition names one, and without a
+// contact.
 template <int Dim> std::set<std::pair<int, int>> MeetingBodies<Dim>::apart(const vector<MaterialPoint>& points, const gimpm::Division& division) const
 {
 	std::int64_t areAllNamed = std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.state->body >= 0; });
@@ -114,7 +115,7 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 		}
 }
 
-// Without a surface where no other meets it.
+// Refuses a body without a surface where no other is in contact with it.
 template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int number, const gimpm::Grid<Dim>& lattice) const
 {
 	const MpmBody&          from = *grid.bodies[number];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Bodies of points that meet, between the conditions of a scene and the term of a step.
+// Bodies of points in contact, between the conditions of a scene and the term of a step.
 #include "core/terms/bodies/body_contact.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/MpmBodyContact.hpp"

@@ -119,8 +119,8 @@ namespace {
 		return edge / grid.cellSize;
 	}
 
-	// A face of the box where the soil ends and no line of the grid is: its nodes hold the soil through cells that
-	// are filled in part.
+	// A face of the box where the soil ends and no line of the grid is: its nodes constrain the soil through cells
+	// that are filled in part.
 	string faceBetweenLines(const MpmBoundary& box, const vector<MaterialPoint>& points, const MpmGrid& grid, const string& name, int axis, int sign)
 	{
 		constexpr Real little = 1e-6; // cells

@@ -6,7 +6,7 @@
 
 namespace yade {
 
-// The nodes that the boundaries hold, of all bodies. std::invalid_argument names boundaries that hold none.
+// The nodes that the boundaries constrain, of all bodies. std::invalid_argument names boundaries without nodes.
 template <int Dim> vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
 
 // std::invalid_argument for boxes of boundaries that prescribe a node two displacements.

@@ -50,7 +50,7 @@ private:
 		// Pose when the run began: the scripts may have moved it since the last one.
 		Se3r               given;
 		Se3r               begin, target, reached; // poses of the run; reached: the end of the step
-		gimpm::ContactLoad mean;                   // mean load of the run so far, in steps in time
+		gimpm::ContactLoad mean;                   // mean load of the run so far, in time steps
 		bool               byYade = false, isFree = false, isNew = true;
 		// Has been moved since the last run, or its way was not finished then.
 		bool   byScript = false;

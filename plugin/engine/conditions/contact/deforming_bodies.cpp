@@ -57,7 +57,8 @@ namespace {
 			axes << first, normal.cross(first), normal;
 			return axes;
 		}
-		// They turn as little as can be from those of the line as it was made, so that places keep their side.
+		// They turn as little as can be from those of the line as it was made, so that contact points keep
+		// their side.
 		Vector3r was          = nodes[1].body->state->refPos - nodes[0].body->state->refPos;
 		was                   = was.norm() > 0 ? Vector3r(was.normalized()) : first;
 		const Vector3r across = was.unitOrthogonal();
@@ -81,7 +82,8 @@ namespace {
 		return longest;
 	}
 
-	// The same number as long as it is not stretched or pressed to another size: places have to keep their names.
+	// The same number as long as it is not stretched or pressed to another size: contact points have to keep their
+	// names.
 	int partsOf(gimpm::RigidKind kind, const vector<Vector3r>& was, const vector<Vector3r>& is, Real spacing)
 	{
 		const Real before = longestOf(was), now = longestOf(is);

@@ -9,7 +9,7 @@ namespace yade {
 // The highest eigenvalue of M^-1 K of a body that moves by the inverse of its masses, blocked ones left out [1/s2].
 Real frequency2(const State&, const gimpm::ContactLoad::Stiffness&);
 
-// Soil of steps in time where a body touches it.
+// Soil of time steps where a body touches it.
 struct SoilAtBody {
 	Real density = 0, cellSize = 0; // [kg/m3], [m]
 	bool answers = true;            // within the step to the force that it gets

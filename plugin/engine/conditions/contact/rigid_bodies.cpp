@@ -86,7 +86,7 @@ namespace {
 		std::copy(corners.begin(), corners.end(), shape.corners.begin());
 		return true;
 	}
-	// The segment in which it meets the plane z = 0: through it, or an edge that lies in it.
+	// Segment in which it cuts the plane z = 0: through it, or an edge that lies in it.
 	bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<2>& shape)
 	{
 		const auto corners = cornersOf(body, facet, at.orientation);

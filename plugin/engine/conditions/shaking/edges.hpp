@@ -30,7 +30,7 @@ private:
 	const Analysis&           analysis;
 	const gimpm::Motion<Dim>* motion = nullptr;
 
-	vector<std::pair<shared_ptr<MpmAbsorbingBoundary>, std::shared_ptr<Edge>>> edges; // in steps in time
+	vector<std::pair<shared_ptr<MpmAbsorbingBoundary>, std::shared_ptr<Edge>>> edges; // in time steps
 };
 
 } // namespace yade

@@ -32,7 +32,7 @@ public:
 	// 2 for segments, 3 for triangles
 	int dim() const { return pieces.empty() ? 0 : int(pieces.front().size()); }
 
-	// Length or area of a piece times its outward normal; x are the places of all vertices.
+	// Length or area of a piece times its outward normal; x are the positions of all vertices.
 	static Vector3r normal(const vector<int>& piece, const vector<Vector3r>& x);
 
 	// Also whether the pieces fit the vertices, are of one kind, and have a size.

@@ -9,7 +9,7 @@ class MpmWater;
 // Water whose numbers are of another unit, a sentence; empty if there is none.
 string warningOfWeight(const MpmWater&, const Analysis&, const string& name);
 
-// The same of water with a level that presses on both sides of a body which stands out of it, where nothing holds
+// The same of water with a level that presses on both sides of a body which stands out of it, where nothing constrains
 // these.
 string warningOfSides(const MpmWater&, const Analysis&, const vector<MaterialPoint>&, const string& name);
 

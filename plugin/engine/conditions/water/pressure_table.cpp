@@ -11,7 +11,7 @@ namespace yade {
 namespace {
 	using gimpm::Key;
 
-	// Values of a function at these places, or why there are none.
+	// Values of a function at these positions, or why there are none.
 	struct Question {
 		PythonFunction   function;
 		vector<Vector3r> places;
@@ -136,7 +136,7 @@ namespace {
 		return nodes;
 	}
 
-	// Gain of the pressure along each axis over a period of the grid: the same in all cells that hold points, or
+	// Gain of the pressure along each axis over a period of the grid: the same in all cells with points, or
 	// there is no such state.
 	template <int Dim> gimpm::Vec<Dim> fallOf(const PressureAt& values, const vector<Key>& cells, const gimpm::Grid<Dim>& grid, const string& name)
 	{

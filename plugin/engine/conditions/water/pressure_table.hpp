@@ -13,7 +13,7 @@ namespace yade {
 // Time of a pressure: in the state reached, or at the end of the coming step.
 enum class When { now, next };
 
-// Question to a function about nodes around the cells, and places beside walls, that the water's tables
+// Question to a function about nodes around the cells, and positions beside walls, that the water's tables
 // do not have yet.
 template <int Dim> class PressureQuestion : public Question {
 public:
@@ -37,7 +37,7 @@ private:
 	When                      when;
 	vector<gimpm::Key>        nodes {};
 	vector<WallInWater::Vec2> places {};
-	vector<Real>              found {}; // at nodes, then at places
+	vector<Real>              found {}; // at nodes, then at positions
 
 	PressureQuestion(MpmWater& water, const string& name, const gimpm::Grid<Dim>& grid, When when)
 	        : water(&water), function(water.pressure), name(name), grid(grid), when(when)

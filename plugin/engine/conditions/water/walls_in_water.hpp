@@ -20,7 +20,7 @@ struct WallInWater {
 	};
 
 	shared_ptr<MpmBeam> beam;
-	vector<Vec2>        left, right; // places beside its vertices
+	vector<Vec2>        left, right; // positions beside its vertices
 	vector<NodeBehind>  behind;
 
 	WallInWater(const shared_ptr<MpmBeam>&, const string& name, const gimpm::Grid<2>&);

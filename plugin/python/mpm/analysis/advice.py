@@ -118,7 +118,7 @@ class _Scene:
 		return max(map(np.max, own)) / min(map(np.min, own)) if own else 1
 
 	def uniformAlongZ(self):
-		"""Both ends held along z, and nothing acts along it: plane strain."""
+		"""Both ends constrained along z, and nothing acts along it: plane strain."""
 		tolerance = 1e-6 * self.h
 		ends = [any('z' in b.fix and not b.surface and b.min[2] <= z + tolerance and b.max[2] >= z - tolerance for b in self.solver.boundaries) for z in (self.low[2], self.high[2])]
 		return all(ends) and self.solver.gravity[2] == 0 and not self.solver.contacts and not any(load._actsAlong(2) for load in self.solver.loads)

@@ -33,7 +33,7 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 	:param solver: ``MpmImplicitEngine`` whose grid and points are meant; needed if there are several
 	:param unitWeight: weight of water by volume [N/m³] > 0
 	:return: object with *pressure* (function of the position [Pa]), *discharge* (of each of *levels* and then *faces*: what leaves, [m³/s] per metre of thickness),
-		*surface* ((N, 2) places of the free surface), *nodes* (N, 2) and *pressures* (N,), negative above it
+		*surface* ((N, 2) points of the free surface), *nodes* (N, 2) and *pressures* (N,), negative above it
 	:raises TypeError: *levels* are no pairs of a surface and a number.
 	:raises ValueError: a value that is not admitted, a grid that is not in the plane, materials without conductivity, or a surface that is not on the body.
 	:raises RuntimeError: the free surface is not found.
@@ -118,7 +118,7 @@ def _surface(name, given):
 
 
 def _functions(xi):
-	"""Values (N, 4) and slopes (N, 4, 2) by cells of the functions of a cell, at places (N, 2) in it."""
+	"""Values (N, 4) and gradients (N, 4, 2) by cells of the functions of a cell, at points (N, 2) in it."""
 	value = np.stack([1 - xi, xi], axis=1)  # (N, 2, 2): end, axis
 	corners = list(itertools.product((0, 1), repeat=2))
 	values = np.stack([value[:, i, 0] * value[:, j, 1] for i, j in corners], axis=1)
@@ -199,7 +199,7 @@ class _Wall:
 		self.shared |= {(i, j) for i in (low[0], high[0]) for j in (low[1], high[1])}
 
 	def copies(self, places, corners):
-		"""(N, 4): number of the copy of nodes that are behind the wall as seen from places; a node on the wall is to its right."""
+		"""(N, 4): number of the copy of nodes that are behind the wall as seen from points; a node on the wall is to its right."""
 		copy = np.zeros(corners.shape[:2], int)
 		low, high = self.line.min(axis=0) - 2, self.line.max(axis=0) + 2
 		near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
@@ -218,7 +218,7 @@ class _Wall:
 		return copy
 
 	def places(self):
-		"""(place, length, direction to the left) for two places between lines of the grid."""
+		"""(place, length, direction to the left) for two points between lines of the grid."""
 		for start, end in zip(self.line, self.line[1:]):
 			way, length = end - start, np.linalg.norm(end - start)
 			cuts = [(line - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 for line in range(math.floor(min(start[a], end[a])), math.ceil(max(start[a], end[a])) + 1)]
@@ -253,7 +253,7 @@ class _Leak:
 
 
 class _Outlet:
-	"""A face, at places that are exact for what is linear in the cells. Below *level* there is the pressure of the water before it, above water may come out."""
+	"""A face, at points that are exact for what is linear in the cells. Below *level* there is the pressure of the water before it, above water may come out."""
 
 	def __init__(self, body, name, segments, level):
 		found = [place for segment in segments for place in self._places(body, *segment)]
@@ -271,7 +271,7 @@ class _Outlet:
 
 	@staticmethod
 	def _places(body, start, end):
-		"""(place, length that it stands for, direction into the body) for two places in each cell."""
+		"""(place, length that it stands for, direction into the body) for two points in each cell."""
 		way = end - start
 		length = np.linalg.norm(way)
 		if not length > 0: return

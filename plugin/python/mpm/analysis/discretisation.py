@@ -54,7 +54,7 @@ def discretisationError(run, cellSize):
 	cases (``examples/discretisation``). It costs what *run* takes with half of the cell size, 3 to 8 times as long in the plane and 10 or more in 3D, and a little. If that is too much, give twice the
 	cell size: the error of the run with *cellSize* itself is then smaller than the estimate as a rule.
 
-	What stays as it is, is not seen: load steps or steps in time (let ``O.dt`` go with *cellSize* in *run*), the number of points in a cell, the tolerance, the size of the model, the law. Layers, gaps and slip bands that are narrower than a
+	What stays as it is, is not seen: load steps or time steps (let ``O.dt`` go with *cellSize* in *run*), the number of points in a cell, the tolerance, the size of the model, the law. Layers, gaps and slip bands that are narrower than a
 	cell of the smallest size are not seen either. The scene that is open is lost (``O.reset()``); that with the smallest cells is left. ::
 
 		def run(cellSize):

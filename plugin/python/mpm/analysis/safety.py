@@ -21,7 +21,7 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	reduction starts anew from the current state, which must be in equilibrium, as after gravity has acted in full. Points do not move: moduli are scaled up until
 	strains are tiny, which changes neither stresses nor what they can carry, and displacements are scaled back. F counts as failed when that finds no equilibrium, though a part of the
 	reduction that does not converge is cut down to ``newton.minStep``; or when the body flows: displacements since F = 1 of more than three times the largest elastic strain times the smallest
-	extent of the body. Ghost stabilisation, which would hold what flows, acts with a hundredth of its factor. F first grows or falls from *first* by *factor*, then the bracket is halved.
+	extent of the body. Ghost stabilisation, which would support what flows, acts with a hundredth of its factor. F first grows or falls from *first* by *factor*, then the bracket is halved.
 
 	Water that flows (``solver.flow``) keeps the pressures which it has at the moment.
 
@@ -60,7 +60,7 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 
 
 def _requireCarried(solver, lower):
-	"""Refuses a factor that a plane slip does not let stand: the cells are too few to slip, and lock or are held by the stabilisation."""
+	"""Refuses a factor that a plane slip does not let stand: the cells are too few to slip, and lock or are supported by the stabilisation."""
 	points, materials, number = pointsOf(solver)
 	slip = leastPlaneSlip(solver, points, materials, number)
 	if slip is None or lower <= _mostBeyondSlip * slip[0]: return

@@ -24,11 +24,11 @@ def freeField(solver, until, motion=None, sides='both', distance=None):
 		O.engines, O.dt = [solver], 0.01
 		solver.loads = mpm.freeField(solver, until=quake.time[-1] + 2, motion=quake.incoming())
 
-	Of the material points beside each side, as they are now, a column of level ground is made, with the engine's settings and what holds or moves its whole base. It is run by itself in steps
+	Of the material points beside each side, as they are now, a column of level ground is made, with the engine's settings and what constrains or moves its whole base. It is run by itself in steps
 	of O.dt, in another scene of YADE that must be empty, before the body is. Dashpots, and springs if there is a *distance*, resist what the edges do otherwise than their column, and what its stress grows by acts
-	on the sides. Edges move with the soil. What has held them until now goes on acting: a static stage hands its reactions over.
+	on the sides. Edges move with the soil. Forces that constrained them until now go on acting: a static stage hands its reactions over.
 
-	:param solver: the ``MpmDynamicEngine``, ``scheme`` 'newmark' or 'generalised-alpha', in plane strain; it is at rest. Boundaries may hold the whole base, not the sides
+	:param solver: the ``MpmDynamicEngine``, ``scheme`` 'newmark' or 'generalised-alpha', in plane strain; it is at rest. Boundaries may constrain the whole base, not the sides
 	:param until: O.time [s] until which the ground beyond is known; steps after it are refused
 	:param motion: wave that comes up through the base (``MpmBaseMotion``), as ``record.incoming()``: the base is then an edge, too, a compliant one. None: the base is what the engine's
 		boundaries and absorbing edges say, as a rigid one that a ``MpmBoundary`` moves
@@ -48,7 +48,7 @@ def freeField(solver, until, motion=None, sides='both', distance=None):
 
 
 def _base(body, columns, distance):
-	"""The edge through which the wave comes. Springs hold it to the bases of the columns at both sides, and between them to what lies between."""
+	"""The edge through which the wave comes. Springs tie it to the bases of the columns at both sides, and between them to what lies between."""
 	line = body.base(body.left, body.right)
 	if math.isinf(distance): return wrapper.MpmFreeField(surface=line, motion=body.motion)
 	times = columns[0].times

@@ -91,7 +91,7 @@ def _outline(vertices):
 
 
 def _refuseSelfContact(vertices, tolerance):
-	"""Raise ValueError unless edges meet only where one follows the other: inside and outside would be ambiguous."""
+	"""Raise ValueError unless edges touch only where one follows the other: inside and outside would be ambiguous."""
 	n = len(vertices)
 	following = np.roll(vertices, -1, axis=0)
 	for i in np.flatnonzero(np.hypot(*(following - vertices).T) <= tolerance):

@@ -48,7 +48,7 @@ class terrain(pack.Predicate):
 		return self._bottom.at(places) if isinstance(self._bottom, Heights) else np.full(len(places), self._bottom)
 
 	def heights(self, places):
-		"""(N,) heights of the surface [m] at these places (N, 2) of the scene, NaN beside the region."""
+		"""(N,) heights of the surface [m] at these positions (N, 2) of the scene, NaN beside the region."""
 		places = np.asarray(places, float).reshape(-1, 2) + self.origin
 		inside = ((places >= self.low) & (places <= self.high)).all(axis=1)
 		return np.where(inside, self._top.at(np.clip(places, self.low, self.high)), np.nan)
@@ -212,7 +212,7 @@ class Heights:
 		self.values = np.nan_to_num(self.values)  # elsewhere heights have no weight
 
 	def placesIn(self, low, high):
-		"""(N, 2) places between which heights in a box are bilinear, its edges included."""
+		"""(N, 2) positions between which heights in a box are bilinear, its edges included."""
 		axes = []
 		for a in (0, 1):
 			lattice = self.low[a] + self.steps[a] * np.arange(self.values.shape[a])
@@ -223,7 +223,7 @@ class Heights:
 		return np.clip(np.floor((places - self.low) / self.steps).astype(int), 0, np.array(self.values.shape) - 2)
 
 	def at(self, places):
-		"""(N,) heights at places (N, 2) on the lattice."""
+		"""(N,) heights at positions (N, 2) on the lattice."""
 		i, j = self._cells(places).T
 		u, v = ((places - self.low) / self.steps).T - (i, j)
 		z = self.values

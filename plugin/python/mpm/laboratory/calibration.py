@@ -31,7 +31,7 @@ def calibrate(material, tests, bounds, steps=50, samples=None, fileName=None):
 	A curve of a sample of grains is a test like others.
 
 	The sum over all curves of (weight x misfit)^2 becomes least; the misfit of a curve is the root mean square of its differences, over its largest reading.
-	The search begins at the best three of several places between the bounds, the material's own values among them where they lie there, and goes on with derivatives by
+	The search begins at the best three of several points between the bounds, the material's own values among them where they lie there, and goes on with derivatives by
 	differences. Values that the law or a test refuses are not gone to. Numbers are looked for by their logarithm where bounds are > 0 and apart by more than a factor of ten.
 
 	Uncertainties come from the derivatives of all readings and from the scatter of each curve about the fit, as if readings erred independently. Where the law cannot follow a
@@ -41,7 +41,7 @@ def calibrate(material, tests, bounds, steps=50, samples=None, fileName=None):
 	:param tests: list of such dicts, not empty
 	:param bounds: dict of (least, largest) admitted value by the name of each parameter that is looked for, in its unit
 	:param steps: number of steps > 0 in which the laws go through the range of strain of a test, an integer; there are steps to each reading besides
-	:param samples: number of places >= 0 at which the search may begin besides the material's own values, an integer; 8 for each parameter
+	:param samples: number of points >= 0 at which the search may begin besides the material's own values, an integer; 8 for each parameter
 	:param fileName: draw readings and the fit to this file, as :func:`plot` does
 	:return: dict of ``material``, one of the same class with the values found; ``values``, and ``uncertainty``, the standard deviation, by name, in the unit of each, inf where
 		it is not determined, and nan where a curve has no more readings than the fit needs of it; ``covariance`` (P, P) in the order of *bounds*, of what is determined; ``undetermined``, names of the parameters that the tests do not determine, by
@@ -142,7 +142,7 @@ def _finite(residuals, count):
 
 
 def _starts(problem, samples):
-	"""The best three of the material's own values, and of places that fill the bounds evenly (Halton's sequence), which are refused nowhere."""
+	"""The best three of the material's own values, and of points that fill the bounds evenly (Halton's sequence), which are refused nowhere."""
 	candidates = [[_halton(i + 1, base) for _, base in zip(problem.parameters, _primes())] for i in range(samples)]
 	own = [_placeOf(p, getattr(problem.material, p.name)) for p in problem.parameters]
 	middle = [0.5 if at is None else at for at in own]
@@ -180,7 +180,7 @@ def _halton(i, base):
 
 
 def _search(problem, leastSquares, starts, readings):
-	"""From the best of some places to the least squares: by wide differences first, which see beyond the kinks that each reading has where the soil begins to yield."""
+	"""From the best of some points to the least squares: by wide differences first, which see beyond the jumps of the gradient that each reading has where the soil begins to yield."""
 
 	def solved(z, span, tolerance, most):
 		return leastSquares(

@@ -16,7 +16,7 @@ from ..points import stages
 from ..points.data import contactFaces, fields
 from ..points.fields import labelled
 from ..points.files import replacing
-from . import needles
+from . import stretched
 from .colouring import coloursOf, hasSign, limits, scalarOrArray
 from .markings import drawContours, drawTrace, drawVectors, labelOf, levelsOf, vectorsOf
 
@@ -37,7 +37,7 @@ def plot(field='displacement', deformed=True, grid=False, ghost=False, fileName=
 		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
 		(N,) array in order of body id. Displacements below 10 cm are shown in mm, stresses in kPa or MPa.
 	:param deformed: draw the current configuration, otherwise the initial one
-	:param grid: draw the cells that hold material, with a tint those at the boundary of the body; by default not
+	:param grid: draw the cells with material, with a tint those at the boundary of the body; by default not
 	:param ghost: draw the faces on which the ghost stabilisation acts; by default not
 	:param fileName: write the picture to this file, whole or not at all; its ending chooses the format (png, pdf, svg, ...). Folders that
 		are missing are made.
@@ -71,7 +71,7 @@ def plot(field='displacement', deformed=True, grid=False, ghost=False, fileName=
 	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter), section.normal is not None)
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
-	if dots: ax.plot([], [], 'o', color=_cellColour, label=f'dots: {dots} points strongly stretched, more than {needles.longest} : 1')
+	if dots: ax.plot([], [], 'o', color=_cellColour, label=f'dots: {dots} points strongly stretched, more than {stretched.longest} : 1')
 	if ghost: _drawFaces(ax, section, solver)
 	places = points['pos' if deformed else 'pos0'][kept][:, section.shown]
 	if levels is not None: drawContours(ax, places, values[kept], levels, 2 * points['halfSize0'].max() if solver.grid.dim == 3 else 2 * points['halfSize0'][:, :2].max())
@@ -96,32 +96,32 @@ class _Section:
 		self.shown = [i for i in (0, 1, 2) if i != (2 if self.normal is None else self.normal)]
 
 	def boxes(self, low, high):
-		"""Lower and upper corners (M, 2) in the picture of the boxes that the section meets, and their indices."""
+		"""Lower and upper corners (M, 2) in the picture of the boxes that the section cuts, and their indices."""
 		if self.normal is None: kept = np.arange(len(low))
 		else: kept = np.flatnonzero((low[:, self.normal] <= self.at) & (self.at < high[:, self.normal]))
 		return low[kept][:, self.shown], high[kept][:, self.shown], kept
 
 	def matter(self, points, deformed):
-		"""Outlines in the picture, each (K, 2), of what points stand for, the indices of those that the section meets, and how many of them are dots."""
+		"""Outlines in the picture, each (K, 2), of what points stand for, the indices of those that the section cuts, and how many of them are dots."""
 		dim = 2 if self.normal is None else 3
 		middles, box = points['pos' if deformed else 'pos0'], signs * points['halfSize0'][:, None, :]
-		radii = needles.radiiOfNeedles(points['defGrad'], points['halfSize0'], dim) if deformed else np.full(len(middles), np.nan)
+		radii = stretched.radiiOfStretched(points['defGrad'], points['halfSize0'], dim) if deformed else np.full(len(middles), np.nan)
 		boxes = np.flatnonzero(np.isnan(radii))
 		deformedBox = np.einsum('pij,pcj->pci', points['defGrad'][boxes], box[boxes]) if deformed else box
 		outlines, kept = self.through(middles[boxes][:, None, :] + deformedBox)
-		if self.normal is not None: radii = needles.cutSpheres(middles, radii, self.normal, self.at)
+		if self.normal is not None: radii = stretched.cutSpheres(middles, radii, self.normal, self.at)
 		dots = np.flatnonzero(~np.isnan(radii))
-		return [*outlines, *needles.discs(middles[dots][:, self.shown], radii[dots])], np.concatenate([boxes[kept], dots]), len(dots)
+		return [*outlines, *stretched.discs(middles[dots][:, self.shown], radii[dots])], np.concatenate([boxes[kept], dots]), len(dots)
 
 	def through(self, corners):
-		"""Outlines in the picture, each (K, 2), of the deformed boxes (N, 8, 3) that the section meets, and their indices."""
+		"""Outlines in the picture, each (K, 2), of the deformed boxes (N, 8, 3) that the section cuts, and their indices."""
 		if self.normal is None: return corners[:, _around][:, :, self.shown], np.arange(len(corners))
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
 		return [inOrder(cut(corners[i], above[i], boxEdges, self.normal, self.at)) for i in kept], kept
 
 	def lines(self, corners):
-		"""(M, 2, 2) ends in the picture of the segments or cut triangles (N, 2 or 3, 3) that the section meets, and their indices."""
+		"""(M, 2, 2) ends in the picture of the segments or cut triangles (N, 2 or 3, 3) that the section cuts, and their indices."""
 		if self.normal is None: return corners[:, :, self.shown], np.arange(len(corners))
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
@@ -140,7 +140,7 @@ def _slicePlane(plane, points, gravity):
 		raise TypeError(f"plot: plane = {brief(plane)} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
 	if not low[axis] <= at < high[axis]:
 		raise ValueError(f'plot: plane = {brief(plane)} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
-	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
+	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes touch, but for round-off
 
 
 def _across(gravity, size):

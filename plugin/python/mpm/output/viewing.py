@@ -18,7 +18,7 @@ from ..geometry.rigid import cornersOf
 from ..points.data import fields as columnsOfPoints
 from ..points.fields import labelled, scalar
 from ..points.files import replacing
-from . import needles
+from . import stretched
 from .colouring import coloursOf, hasSign, limits
 from .plotting import momentOf
 
@@ -32,7 +32,7 @@ class view(Film, name='viewing'):
 		O.run(40, wait=True)
 		film.finish()
 
-	Without *every* the file has the present state, and is there at once. Points are drawn as their deformed boxes, needles as balls of as much matter, as by :func:`plot`; a click says what is where. Of YADE's bodies spheres, boxes, facets, walls and clumps of these are
+	Without *every* the file has the present state, and is there at once. Points are drawn as their deformed boxes, strongly stretched points as balls of as much matter, as by :func:`plot`; a click says what is where. Of YADE's bodies spheres, boxes, facets, walls and clumps of these are
 	drawn in their colours; others are left out. ``slope.html#frame=3&field=stress_xy&cut=y:0.5`` opens a state, cut at half of its height; ``&turn=30:-10`` turns it by degrees, ``&play`` plays it. The file has 12 to 30 bytes a point and state; for large results
 	there are :class:`MpmVtkRecorder` and :func:`state`.
 
@@ -132,7 +132,7 @@ class _State:
 		self.values = [scalar('view', name, points).astype(np.float32) for name in names]
 		self.middles = points['pos'][:, :dim].astype(np.float32)
 		self.edges = (points['defGrad'] * points['halfSize0'][:, None, :])[:, :dim, :dim].astype(np.float32)
-		self.radii = np.nan_to_num(needles.radiiOfNeedles(points['defGrad'], points['halfSize0'], dim)).astype(np.float32)
+		self.radii = np.nan_to_num(stretched.radiiOfStretched(points['defGrad'], points['halfSize0'], dim)).astype(np.float32)
 		extent = np.where(self.radii > 0, self.radii, np.abs(self.edges).sum(axis=2).max(axis=1))
 		self.reach = float(max(np.abs(self.edges[self.radii == 0]).max(initial=0), self.radii.max(initial=0))) or 1.
 		self.low, self.high = (self.middles - extent[:, None]).min(axis=0), (self.middles + extent[:, None]).max(axis=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies of points that may meet: their names and surfaces."""
+"""Bodies of points that may be in contact: their names and surfaces."""
 import numpy as np
 from yade.wrapper import MpmBody
 

@@ -53,7 +53,7 @@ def contactForces(solver=None):
 	"""Contact of soil with rigid bodies at the end of the last converged step: positions and forces.
 
 	:param solver: ``MpmImplicitEngine`` with the contacts; needed if there are several
-	:return: places (N, 3) [m] on the bodies, a quarter of a cell apart, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
+	:return: contact points (N, 3) [m] on the bodies, a quarter of a cell apart, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
 		if nothing touches
 	:raises ValueError: no engine, or several of which none is named.
 	"""
@@ -82,7 +82,7 @@ def pointsOf(solver):
 def withMaterials(mask=0):
 	"""The arrays of the points, the list of the materials that their bodies have, and the place of each point's (N,) in it.
 
-	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index; where processes divide the points it does.
+	``O.materials`` need not have those, so ``material`` of :func:`arrays` may be no index; where processes divide the points it does.
 	"""
 	data = columnsOfPoints(mask, False)
 	points = _asArrays(data)

@@ -34,7 +34,7 @@ def fill(predicate, grid, pointsPerCell, material, body=None, **parameters):
 	:param pointsPerCell: points per cell and axis, at least 1; points whose centre is inside the region are kept
 	:param material: label of a material in ``O.materials``; or a list of (predicate, label), of which the first that
 		contains the point applies; or a function that takes the position and returns a label
-	:param body: name of the body of points that they belong to, which may meet others (``MpmBodyContact``), as 'slab'; None: one without a name. It is put into ``grid.bodies``, with the surface of the
+	:param body: name of the body of points that they belong to, which may be in contact with others (``MpmBodyContact``), as 'slab'; None: one without a name. It is put into ``grid.bodies``, with the surface of the
 		region; regions that are filled with the same name are one body, whose surface has no part where they have faces in common
 	:param parameters: strengths and moduli of the materials that differ from point to point, by the names of their attributes, as
 		``cohesion=lambda x: 2e3 + 500 * (10 - x[1])``: each a function of the position that returns a number, or an array (N,) in the order in which the points
@@ -57,7 +57,7 @@ def add(predicate, solver, pointsPerCell, material, body=None, **parameters):
 	"""Fill a region with material points and put them into the scene, as ``O.bodies.append(fill(predicate, solver.grid, ...))`` does, without what that leaves behind in memory.
 
 	Where several processes divide the points (``MpmImplicitEngine.distributed``) each makes its own only, under the ids that they have in one process; ``O.bodies`` has gaps for those of the others. So
-	no process ever holds all. The solver comes first, with what it says of the points::
+	no process ever has all. The solver comes first, with what it says of the points::
 
 		solver = MpmImplicitEngine(grid=grid, distributed=True, ...)
 		O.engines = [solver]

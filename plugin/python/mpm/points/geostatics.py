@@ -34,7 +34,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 	K0 / OCR^sin(phi) of the stresses; it is no less than that of the present state. The material's own ``preconsolidation`` is then without effect on them. Points of
 	hardening soil and NorSand are first given the stress of that past, and remember the hardening that it needs.
 
-	The first step then finds nothing to move, if the sides are held in their normal direction and gravity
+	The first step then finds nothing to move, if the sides are constrained in their normal direction and gravity
 	acts in full from the beginning. Point loads and prescribed displacements may grow meanwhile, with ``loadCurve``::
 
 		solver.gravityCurve = [(0, 1)]

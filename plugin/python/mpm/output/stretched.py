@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Points that have become needles: drawn as dots of the same volume, as their boxes, many cells long, would cover what is not theirs."""
+"""Strongly stretched points: drawn as dots of the same volume, as their boxes, many cells long, would cover what is not theirs."""
 import numpy as np
 
 longest = 5  # times the shortest side: beyond it a point is drawn as a dot
 _around = np.linspace(0, 2 * np.pi, 13)[:-1]
 
 
-def radiiOfNeedles(defGrad, halfSize0, dim):
-	"""(N,) radii [m] of discs or spheres with the matter of points that are drawn out to more than *longest* to one, NaN of the others."""
+def radiiOfStretched(defGrad, halfSize0, dim):
+	"""(N,) radii [m] of discs or spheres with the matter of points that are stretched to more than *longest* to one, NaN of the others."""
 	sides = np.linalg.svd(defGrad[:, :dim, :dim] * halfSize0[:, None, :dim], compute_uv=False)
 	isNeedle = sides[:, 0] > longest * sides[:, -1]
 	size = (2 * sides).prod(axis=1)
