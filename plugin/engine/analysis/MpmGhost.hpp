@@ -41,7 +41,7 @@ public:
 		v("threshold", &MpmGhost::threshold, 0, "Limit with where='aggregates': part of a cell [-], from above 0 to 1, below which it is ill-filled.",
 		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 		v("memory", &MpmGhost::memory, 0,
-		  "Part [-] of the last step's displacements, in the ratio of the loads, of which jumps of the gradient cost nothing: 0, the default, to 1. For sand: steady flow is not resisted.",
+		  "Part [-] of the last step's displacements, in the ratio of the loads, whose gradient may jump freely: 0, the default, to 1. For sand: steady flow is not resisted.",
 		  admitting("a number from 0 to 1", [](Real part) { return part >= 0 && part <= 1; }));
 		v("massFactor", &MpmGhost::massFactor, 0,
 		  "Ghost mass of MpmDynamicEngine [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",

@@ -94,7 +94,7 @@ public:
 		  "Messages of a run on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
 		v("maxSplits", &E::maxSplits, 0,
-		  "Number of times that a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
+		  "Number of times that a point whose domain outgrows half a cell is split in two, with its halves. 0, the default: never; the domain stays at half a cell.",
 		  atLeast(0));
 		v("distributed", &E::distributed, 0,
 		  "True: several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");

@@ -42,7 +42,7 @@ public:
 		v("curve", &MpmDrain::curve, 0, "Factor [-] of *pressure* or *flux* as a sequence of (time [s], factor); empty, the default: 1.",
 		  curveOrNothing);
 		v("conductance", &MpmDrain::conductance, 0,
-		  "Conductance of the skin, over the conductivity of the soil and the size of its cells [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",
+		  "Conductance of the skin over the conductivity of the soil by cell [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",
 		  positive);
 		v("discharge", &MpmDrain::discharge, readonly,
 		  "Volume of water that leaves by time [m³/s] in the last converged step; per metre of thickness in plane strain, NaN before the first.");
