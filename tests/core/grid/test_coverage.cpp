@@ -28,7 +28,7 @@ namespace {
 	TEST(Coverage, IsWholeWhereDomainsTile)
 	{
 		const auto square = coverageOf(deformed(Mat<2>::Identity(), DomainRule::tiling));
-		EXPECT_EQ(square.cells, 36); // of 8 x 8, those with neighbours on all sides
+		EXPECT_EQ(square.cells, 36); // cells with neighbours on all sides, out of 8 x 8
 		EXPECT_LT(square.largest, 1e-14);
 		const auto sheared = coverageOf(deformed((Mat<2>() << 1, 0.6, 0, 1).finished(), DomainRule::tiling));
 		EXPECT_GT(sheared.cells, 20);
@@ -41,7 +41,7 @@ namespace {
 		for (std::size_t p = 0; p < boxes.centres.size(); ++p)
 			if (boxes.centres[p][0] > 0 && boxes.centres[p][0] < 1) boxes.halfLengths[p][0] *= 0.8;
 		const auto thinner = coverageOf(boxes);
-		EXPECT_NEAR(thinner.largest, 0.2, 1e-12); // of one row of cells in six
+		EXPECT_NEAR(thinner.largest, 0.2, 1e-12); // one row of cells in six
 		EXPECT_NEAR(thinner.mean, 0.2 / 6, 1e-12);
 		const auto stretched = coverageOf(deformed((Mat<2>() << 1, 0.6, 0, 1).finished(), DomainRule::stretch));
 		EXPECT_GT(stretched.mean, 0.01);

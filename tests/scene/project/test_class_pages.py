@@ -90,7 +90,7 @@ print(json.dumps(classes))
 
 
 def admits(text, value):
-	"""Whether the column "admitted" of a page admits a number; None where it is not about numbers alone."""
+	"""True if the column "admitted" of a page admits a number; None where it is not about numbers alone."""
 	text = re.sub(r'\(.*?\)', '', text)
 	alternatives = [part.strip() for part in text.split(',')] if re.fullmatch(r'[^,]*(, or (NaN|inf|0))?', text) else [text]
 	main = alternatives[0].removeprefix('or ')
