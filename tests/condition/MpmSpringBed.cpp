@@ -21,7 +21,7 @@ namespace {
 
 	template <int Dim> class Springs : public gimpm::Term<Dim> {
 	public:
-		Springs(Bed<Dim>& bed, const gimpm::Beginning<Dim>& step) : bed(bed)
+		Springs(Bed<Dim>& bed, const gimpm::StepContext<Dim>& step) : bed(bed)
 		{
 			for (size_t n = 0; n < step.basis.nodes.size(); ++n)
 				if (gimpm::Grid<Dim>::index(step.basis.nodes[n])[1] == bed.layer) ends.push_back({ int(n), step.basis.nodes[n] });
@@ -31,7 +31,7 @@ namespace {
 			for (const End& end : ends)
 				K.markUsed(end.node, 0);
 		}
-		std::optional<gimpm::PointFailure> add(const Eigen::VectorXd& d, const gimpm::TermSum<Dim>& sum) const override
+		std::optional<gimpm::PointFailure> add(const Eigen::VectorXd& d, const gimpm::AssembledTerms<Dim>& sum) const override
 		{
 			for (const End& end : ends) {
 				const Vec<Dim> f = force(end, d);
@@ -104,7 +104,7 @@ namespace {
 				beds.push_back(bed);
 			}
 			for (Bed<Dim>& bed : beds) {
-				model.terms.push_back([&bed](const gimpm::Beginning<Dim>& step) { return std::make_unique<Springs<Dim>>(bed, step); });
+				model.terms.push_back([&bed](const gimpm::StepContext<Dim>& step) { return std::make_unique<Springs<Dim>>(bed, step); });
 				model.inPlace.push_back(
 				        { [&bed](const gimpm::PointCloud<Dim>&, Real scale) { stiffen(bed, scale); }, [](const gimpm::PointCloud<Dim>&) {} });
 			}

@@ -24,7 +24,8 @@ template <int Dim> struct Moving {
 		model.atMiddle         = scheme.atMiddle;
 		motion->scheme         = scheme;
 		motion->isElastic      = { law->isElastic };
-		if (!scheme.isExplicit) model.inertia = [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
+		if (!scheme.isExplicit)
+			model.inertia = [motion = motion](const StepContext<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
 	}
 	/// Points with the velocity(position).
 	template <class F> void put(PointCloud<Dim> points, F&& velocity)

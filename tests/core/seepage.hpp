@@ -41,7 +41,7 @@ template <int Dim> class Flow : public CoupledTerm<Dim> {
 public:
 	static constexpr int field = 1;
 
-	Flow(const Medium& medium, const Beginning<Dim>& step) : medium_(medium), basis_(step.basis), h_(step.grid.cellSize), faces_(step.faces)
+	Flow(const Medium& medium, const StepContext<Dim>& step) : medium_(medium), basis_(step.basis), h_(step.grid.cellSize), faces_(step.faces)
 	{
 		for (std::size_t p = 0; p < step.cloud.size(); ++p)
 			volume_.push_back(step.cloud.volume0[p] * step.cloud.volumeRatio(p));
@@ -199,7 +199,7 @@ template <int Dim> struct Body {
 			           [this](const CloudBasis<Dim>& basis, const Eigen::VectorXd& v, const Eigen::VectorXd& f) {
 			                   nodes= nodePositions(basis, model.grid), value = v, flow = f;
 			           } } };
-		model.coupledTerms = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<Flow<Dim>>(medium, step); } };
+		model.coupledTerms = { [this](const StepContext<Dim>& step, const State&) { return std::make_unique<Flow<Dim>>(medium, step); } };
 	}
 	static HeldBox<Dim> farEnd(const Model<Dim>& model, double displacement)
 	{

@@ -68,7 +68,7 @@ template <int Dim> struct Braced {
 		model.boundary            = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) });
 		cloud                     = block<Dim>(model.grid, cellsOf<Dim>(length, 3, 1), 2);
 		tendon                    = { { Grid<Dim>::key(cellsOf<Dim>(0, 3, 0)), Grid<Dim>::key(cellsOf<Dim>(length, 3, 0)) }, 2e4, 0.1 };
-		model.coupledTerms = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<TendonForce<Dim>>(tendon, step.basis); } };
+		model.coupledTerms = { [this](const StepContext<Dim>& step, const State&) { return std::make_unique<TendonForce<Dim>>(tendon, step.basis); } };
 	}
 };
 

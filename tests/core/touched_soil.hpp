@@ -29,7 +29,7 @@ template <int Dim> struct TouchedSoil {
 		model.grid.axisymmetric = isRing;
 		model.materials         = { { Hencky(young, 0), density } };
 		model.newton.tolerance  = tolerance;
-		model.terms             = { [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
+		model.terms             = { [this](const StepContext<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
 		const double spacing    = h / 2;
 		Index<Dim>   n          = Index<Dim>::Constant(6);
 		n[1]                    = int(std::round(height / spacing));

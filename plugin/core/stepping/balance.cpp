@@ -68,10 +68,10 @@ template <int Dim> double WholeBalance<Dim>::normOf(int field, const Eigen::Vect
 
 template <int Dim> void WholeBalance<Dim>::begin(const Balance& balance)
 {
-	const double entering = system_.hasInertia() ? elastic_.strainOf(system_.ownMotion) : elastic_.prescribedStrain();
+	const double entering = system_.hasInertia() ? elastic_.strainOf(system_.inertialPredictor) : elastic_.prescribedStrain();
 	initial_              = std::max(sizeOfForces(balance), balance.reference);
 	vanishing_            = elastic_.roundOff * elastic_.norm([&](int i) { return elastic_.strainAtStart(i) + entering; });
-	if (system_.hasInertia()) vanishing_ += system_.map.displacements(system_.roundOff(system_.ownMotion)).norm();
+	if (system_.hasInertia()) vanishing_ += system_.map.displacements(system_.roundOff(system_.inertialPredictor)).norm();
 	enteringOfFields_.assign(balance.fields.size(), 0);
 	initialOfFields_ = enteringOfFields_;
 	for (std::size_t f = 0; f < balance.fields.size(); ++f)

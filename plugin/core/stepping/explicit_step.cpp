@@ -49,7 +49,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	// 1. basis functions and populated cells; boundary cells and ghost faces
 	const StepSystem<Dim> system(cloud, model, load, report);
 	// 2. points to nodes: velocities in the middle of the step, and so the displacements
-	ExplicitInertia<Dim> inertia(motion, system.beginning());
+	ExplicitInertia<Dim> inertia(motion, system.context());
 	if (!isPossible(system, inertia, motion, report)) return report;
 	const Eigen::VectorXd d = inertia.displacements();
 	// 3. the forces at the end of the step

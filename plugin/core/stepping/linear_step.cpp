@@ -30,7 +30,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
 		step = prescribed_;
 		if (!system_.map.isAlone()) caused_ = held;
-		hasPrescribed();
+		markPrescribedApplied();
 	}
 	if (system_.dofs.count == 0) return true;
 	const LinearProblem problem = system_.dofs.ties ? reduced(K, system_.dofs, couplings) : LinearProblem(K, system_.dofs, system_.share(), couplings);

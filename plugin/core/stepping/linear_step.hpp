@@ -12,7 +12,7 @@ public:
 
 	/// Whether the next solve moves the held nodes to where they are prescribed.
 	bool prescribes() const { return prescribed_.size() > 0; }
-	void hasPrescribed() { prescribed_.resize(0); } ///< The iterate contains these displacements.
+	void markPrescribedApplied() { prescribed_.resize(0); } ///< The iterate contains these displacements.
 
 	/// Forces on the free nodes if nothing but what is prescribed grew; of several fields only.
 	const Eigen::VectorXd& causedByPrescribed() const { return caused_; }

@@ -103,9 +103,9 @@ template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolve
 			}
 			before = report.ghostShare;
 		}
-		system.ghostFrom = growth;
-		growth           = equilibrium(system, solver, report, growth);
-		report.predicted = predicted;
+		system.ghostReference = growth;
+		growth                = equilibrium(system, solver, report, growth);
+		report.predicted      = predicted;
 	}
 	return growth;
 }
@@ -137,7 +137,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const bool            predicts   = last && !system.hasInertia();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostFrom = model.ghost.memory * prediction;
+	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostReference = model.ghost.memory * prediction;
 	const Eigen::VectorXd growth = relieved(system, solver, report, equilibriumOfHeld(system, solver, report, prediction, load));
 	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);

@@ -61,7 +61,7 @@ template <int Dim> struct InPlace {
 template <int Dim> class Inertia;
 
 /// Makes inertia for a step, in which it is the last of the terms.
-template <int Dim> using InertiaOfStep = std::function<std::unique_ptr<Inertia<Dim>>(const Beginning<Dim>&)>;
+template <int Dim> using InertiaOfStep = std::function<std::unique_ptr<Inertia<Dim>>(const StepContext<Dim>&)>;
 
 template <int Dim> struct Model {
 	Grid<Dim>  grid;

@@ -31,12 +31,13 @@ template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::V
 	return std::sqrt(weighed(system, volume, squares) / weighed(system, volume, std::vector<double>(volume.size(), 1)));
 }
 
-/// |plastic strain| / |strain| of the step, both as roots of mean squares, at most 1. The trial elastic strain, what is left of it and what has become plastic, is what an elastic law would answer.
+/// |plastic strain| / |strain| of the step, both as roots of mean squares, at most 1. The trial elastic strain, what is
+/// left of it and what has become plastic, is what an elastic law would answer.
 template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eigen::VectorXd& d)
 {
 	const auto& materials = system.model.materials;
 	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return m.law->isElastic; })) return 0;
-	std::vector<double>         volume = system.beginning().cloud.volume0;
+	std::vector<double>         volume = system.context().cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
 	forUpdatedPoints(

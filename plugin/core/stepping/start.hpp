@@ -32,10 +32,10 @@ private:
 	bool movesOn(Eigen::VectorXd& d)
 	{
 		if (!system_.hasInertia()) return false;
-		iterate_.evaluate(system_.ownMotion, true);
+		iterate_.evaluate(system_.inertialPredictor, true);
 		if (iterate_.failure) return false;
-		d = system_.ownMotion;
-		linear_.hasPrescribed();
+		d = system_.inertialPredictor;
+		linear_.markPrescribedApplied();
 		return true;
 	}
 
@@ -56,7 +56,7 @@ private:
 		}
 		d = std::move(prediction);
 		if (linear_.prescribes()) iterate_.enter(linear_.causedBy(held, iterate_.K, iterate_.beside));
-		linear_.hasPrescribed();
+		linear_.markPrescribedApplied();
 		return true;
 	}
 

@@ -149,7 +149,7 @@ template <int Dim> void StepSystem<Dim>::resistPoints()
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
 	isStabilised_ = !faces.empty();
-	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostFrom));
+	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostReference));
 }
 
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
@@ -168,15 +168,15 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		return Eigen::VectorXd(before - resistance);
 	};
 	for (const auto& make : model.coupledTerms) { // of which inertia knows the imbalance
-		auto term = make(beginning(), state(Eigen::VectorXd::Zero(map.size())));
+		auto term = make(context(), state(Eigen::VectorXd::Zero(map.size())));
 		coupled_.push_back(term.get());
 		terms.push_back(std::move(term));
 	}
 	for (const auto& make : model.terms)
-		terms.push_back(make(beginning()));
+		terms.push_back(make(context()));
 	if (!model.inertia) return;
-	auto made = model.inertia(beginning());
-	ownMotion = prescribed, map.of(0, ownMotion) = made->ownMotion();
+	auto made         = model.inertia(context());
+	inertialPredictor = prescribed, map.of(0, inertialPredictor) = made->inertialPredictor();
 	inertia = made.get();
 	terms.push_back(std::move(made));
 }
@@ -213,7 +213,7 @@ template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatr
 	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, beside);
 }
 
-template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	std::optional<PointFailure> failure;
 	for (auto term = terms.begin(); term != terms.end() && !failure; ++term)

@@ -32,8 +32,8 @@ template <int Dim> struct StepSystem {
 	const FreeDofs&        dofs       = constraints.dofs;
 	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< of displacements [m]
 	Eigen::VectorXd        external;                            ///< body and point forces [N]
-	Eigen::VectorXd        ghostFrom;                           ///< displacements of which kinks cost nothing, by GhostSettings::memory; empty: none [m]
-	Eigen::VectorXd        ownMotion; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
+	Eigen::VectorXd        ghostReference;                      ///< displacements of which kinks cost nothing, by GhostSettings::memory; empty: none [m]
+	Eigen::VectorXd        inertialPredictor; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	/// None of them moves, whatever holds them or not; before Newton's method.
 	void holdStill(const std::vector<int>& nodes, const Load<Dim>&);
@@ -101,7 +101,7 @@ template <int Dim> struct StepSystem {
 	void commit(const Eigen::VectorXd& d) const;
 
 	/// How things are as the step begins; the cloud has to be as it was then.
-	Beginning<Dim> beginning() const
+	StepContext<Dim> context() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
 		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, share_->knownNodes(), *model.division };
@@ -128,7 +128,7 @@ private:
 	void                        holdField(int field, const FieldStart&);
 	void                        addCoupledBefore(Eigen::VectorXd& resistance) const;
 	Eigen::VectorXd             completed(Eigen::VectorXd force) const;
-	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const TermSum<Dim>&) const;
+	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const;
 	std::optional<PointFailure> addCoupled(
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const;
 };

@@ -5,7 +5,7 @@
 namespace gimpm {
 
 template <int Dim>
-std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step, int layer)
+std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const StepContext<Dim>& step, int layer)
 {
 	const double farthest = *std::max_element(reach.begin(), reach.end());
 	const auto&  cloud    = step.cloud;
@@ -41,7 +41,7 @@ std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const s
 	return near;
 }
 
-template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const Beginning<2>&, int);
-template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const Beginning<3>&, int);
+template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const StepContext<2>&, int);
+template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const StepContext<3>&, int);
 
 } // namespace gimpm

@@ -13,6 +13,6 @@ template <int Dim> struct SoilNear {
 };
 
 template <int Dim>
-std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>&, int layer = -1);
+std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const StepContext<Dim>&, int layer = -1);
 
 } // namespace gimpm

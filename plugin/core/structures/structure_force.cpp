@@ -34,7 +34,7 @@ template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, c
 
 } // namespace
 
-template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const Beginning<Dim>& step) : structure_(structure)
+template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const StepContext<Dim>& step) : structure_(structure)
 {
 	soil_     = soilAround(step);
 	obstacle_ = missingSoil(step, soil_);
@@ -61,7 +61,7 @@ template <int Dim> template <class F> void StructureForce<Dim>::forVertices(F&& 
 			f(bar, v, all);
 }
 
-template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(const Beginning<Dim>& step)
+template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(const StepContext<Dim>& step)
 {
 	const auto                all = places();
 	std::vector<double>       reach, cells;
@@ -95,7 +95,7 @@ template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(con
 	return soil;
 }
 
-template <int Dim> void StructureForce<Dim>::lookBesideBeam(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil) const
+template <int Dim> void StructureForce<Dim>::lookBesideBeam(const StepContext<Dim>& step, std::vector<SoilAtVertex>& soil) const
 {
 	if constexpr (Dim == 2) {
 		const Beam&         beam = *structure_.beam;
@@ -117,7 +117,7 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const Beginning<Dim>
 }
 
 /// Of the soil to the left, and the soil to the right where it has other nodes.
-template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil)
+template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim>& step, std::vector<SoilAtVertex>& soil)
 {
 	if constexpr (Dim == 2) {
 		const Beam&               beam  = *structure_.beam;
@@ -156,7 +156,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 
 /// The cut is longer than the beam: there its two sides are kept together at integration points, so that it matters
 /// little where a tip is in its cell.
-template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil)
+template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const StepContext<Dim>& step, std::vector<SoilAtVertex>& soil)
 {
 	if constexpr (Dim == 2) {
 		const Beam&         beam = *structure_.beam;
@@ -190,7 +190,7 @@ template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const Beginning<Dim
 	}
 }
 
-template <int Dim> std::string StructureForce<Dim>::missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>& soil) const
+template <int Dim> std::string StructureForce<Dim>::missingSoil(const StepContext<Dim>&, const std::vector<SoilAtVertex>& soil) const
 {
 	std::string missing;
 	forVertices([&](const Reinforcement<Dim>& bar, int v, int i) {

@@ -12,7 +12,7 @@ namespace gimpm {
 template <int Dim> class StructureForce : public CoupledTerm<Dim> {
 public:
 	/// The structure is moved in commitCoupled().
-	StructureForce(Structure<Dim>&, const Beginning<Dim>&);
+	StructureForce(Structure<Dim>&, const StepContext<Dim>&);
 
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
@@ -25,11 +25,11 @@ public:
 
 private:
 	std::vector<Vec<Dim>>     places() const;
-	std::vector<SoilAtVertex> soilAround(const Beginning<Dim>&);
-	void                      lookBesideBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&) const;
-	void                      partAlongBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&);
-	void                      bondAheadOfTips(const Beginning<Dim>&, std::vector<SoilAtVertex>&);
-	std::string               missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>&) const;
+	std::vector<SoilAtVertex> soilAround(const StepContext<Dim>&);
+	void                      lookBesideBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&) const;
+	void                      partAlongBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
+	void                      bondAheadOfTips(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
+	std::string               missingSoil(const StepContext<Dim>&, const std::vector<SoilAtVertex>&) const;
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd           equilibrium(const Eigen::VectorXd& d) const;

@@ -19,7 +19,7 @@ template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string
 	return text.str();
 }
 
-template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name)
+template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& places, const StepContext<Dim>& step, const std::string& name)
 {
 	AttachedPlaces<Dim> found;
 	std::vector<double> reach;
@@ -41,7 +41,7 @@ template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec
 
 } // namespace
 
-template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name, int layer)
+template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const StepContext<Dim>& step, const std::string& name, int layer)
 {
 	if (step.grid.parting || layer != layerOfPlace) return attachTo(layer, places, step, name);
 	const auto& layers = step.cloud.layer;
@@ -60,7 +60,7 @@ template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>&
 	return found;
 }
 
-template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const Beginning<2>&, const std::string&, int);
-template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const Beginning<3>&, const std::string&, int);
+template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const StepContext<2>&, const std::string&, int);
+template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const StepContext<3>&, const std::string&, int);
 
 } // namespace gimpm

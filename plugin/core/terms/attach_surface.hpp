@@ -17,6 +17,6 @@ template <int Dim> struct AttachedPlaces {
 /// acts in a cell whose soil is gone would hang on what is beside it, by round-off or not. Of several bodies it is the
 /// one in the layer, or, where none is given, the one that is near all places. `name`: of what has them.
 template <int Dim>
-AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>&, const std::string& name, int layer = layerOfPlace);
+AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const StepContext<Dim>&, const std::string& name, int layer = layerOfPlace);
 
 } // namespace gimpm

@@ -33,7 +33,7 @@ void addAttachedStiffness(const Places<Dim>& from, const Places<Dim>& to, const 
 }
 
 /// A force on the body, which therefore does not resist.
-template <int Dim, template <int> class Places> void addAttachedForce(const Places<Dim>& at, const Vec<Dim>& force, const TermSum<Dim>& sum)
+template <int Dim, template <int> class Places> void addAttachedForce(const Places<Dim>& at, const Vec<Dim>& force, const AssembledTerms<Dim>& sum)
 {
 	for (int n = 0; n < at.nodes; ++n) {
 		const Vec<Dim> f = at.weight[n] * force;

@@ -57,11 +57,11 @@ public:
 	virtual void commitCoupled(const State&) { }
 
 	void                        mark(NodeMatrix<Dim>&) const override { }
-	std::optional<PointFailure> add(const Eigen::VectorXd&, const TermSum<Dim>&) const final { return std::nullopt; }
+	std::optional<PointFailure> add(const Eigen::VectorXd&, const AssembledTerms<Dim>&) const final { return std::nullopt; }
 };
 
-/// Makes a term for a step, from how things are when it begins; what the beginning refers to lasts as long as the term.
-template <int Dim> using CoupledTermOfStep = std::function<std::unique_ptr<CoupledTerm<Dim>>(const Beginning<Dim>&, const State&)>;
+/// Makes a term for a step, from how things are when it begins; what the context refers to lasts as long as the term.
+template <int Dim> using CoupledTermOfStep = std::function<std::unique_ptr<CoupledTerm<Dim>>(const StepContext<Dim>&, const State&)>;
 
 /// What a field is as a step begins.
 struct FieldStart {

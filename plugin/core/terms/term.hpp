@@ -42,7 +42,7 @@ struct LocalError {
 };
 
 /// Where a term adds its part. Vectors have Dim components a node.
-template <int Dim> struct TermSum {
+template <int Dim> struct AssembledTerms {
 	Eigen::VectorXd& force;           ///< [N]
 	NodeMatrix<Dim>* K     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
 	Eigen::VectorXd* sizes = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
@@ -59,7 +59,7 @@ public:
 	virtual void mark(NodeMatrix<Dim>&) const = 0;
 
 	/// Adds force, stiffness and sizes at d. After a failure the sums are of no use.
-	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const = 0;
+	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const = 0;
 
 	/// Adds its force as it was when the step began, whatever moves or grows in the step.
 	virtual void addBefore(Eigen::VectorXd& force) const { add(Eigen::VectorXd::Zero(force.size()), { force }); }
@@ -106,7 +106,7 @@ template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
 template <int Dim> struct GhostFace;
 
 /// How things are when a step begins.
-template <int Dim> struct Beginning {
+template <int Dim> struct StepContext {
 	const PointCloud<Dim>&             cloud;
 	const CloudBasis<Dim>&             basis;
 	const Grid<Dim>&                   grid;
@@ -122,6 +122,6 @@ template <int Dim> struct Beginning {
 };
 
 /// Makes a term for a step.
-template <int Dim> using TermOfStep = std::function<std::unique_ptr<Term<Dim>>(const Beginning<Dim>&)>;
+template <int Dim> using TermOfStep = std::function<std::unique_ptr<Term<Dim>>(const StepContext<Dim>&)>;
 
 } // namespace gimpm

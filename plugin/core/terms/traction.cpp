@@ -67,7 +67,7 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 } // namespace
 
 template <int Dim>
-Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
+Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const StepContext<Dim>& step)
         : load_(load), isRing_(step.grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
 	auto attached = attachPlaces(load_.surface.vertices, step, load_.name, load_.layer);
@@ -149,7 +149,7 @@ template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMa
 	}
 }
 
-template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	const Places places = placesAt(d), forces = forcesAt(places);
 	for (std::size_t v = 0; v < forces.size(); ++v)

@@ -35,10 +35,10 @@ template <int Dim> struct SurfaceLoad {
 template <int Dim> class Traction : public Term<Dim> {
 public:
 	/// The load is moved in commit().
-	Traction(SurfaceLoad<Dim>&, const Beginning<Dim>&);
+	Traction(SurfaceLoad<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }

@@ -64,7 +64,7 @@ template <int Dim> void WallForce<Dim>::mark(NodeMatrix<Dim>& K) const
 		markAttached(piece.at, piece.at, K);
 }
 
-template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	for (const HeldPiece& piece : heldPieces_) {
 		addAttachedForce<Dim>(piece.at, piece.area * tractionOn(piece, d), sum);

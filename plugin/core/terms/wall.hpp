@@ -36,7 +36,7 @@ public:
 	WallForce(Wall<Dim>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, const Division& = {});
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	std::string                 obstacle() const override;
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/grid/grid.hpp"
 #include "engine/analysis/condition.hpp"
-#include "engine/analysis/telling.hpp"
+#include "engine/analysis/output_columns.hpp"
 #include "yade_api/exposed.hpp"
 #include <optional>
 

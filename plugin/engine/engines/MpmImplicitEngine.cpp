@@ -355,7 +355,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	StepErrors   errors(*this);
 	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), *job.model.processes); };
 	while (!job.control.isDone()) {
-		Attempt<Dim> tried = errors.next(job, [&] { return attempt(job); });
+		Attempt<Dim> tried = errors.next(job, [&] { return nextIncrement(job); });
 		if (nonlocalLength > 0) gimpm::averageSoftening(job.cloud, job.model, nonlocalLength);
 		const auto      report = isExplicit() ? job.moving->step(job, tried)
 		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
@@ -376,7 +376,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	}
 }
 
-template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
+template <int Dim> Attempt<Dim> MpmImplicitEngine::nextIncrement(Job<Dim>& job) const
 {
 	const ValueLock lock;
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);

@@ -151,7 +151,7 @@ private:
 	template <int Dim> void         warnOf(const Job<Dim>&);
 	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);
-	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
+	template <int Dim> Attempt<Dim> nextIncrement(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
 	void                            warnOfPoints(const string&);

@@ -47,7 +47,7 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 		condition->joinMotion(*motion, job.model, job.begin);
 	job.model.atMiddle = motion->scheme.atMiddle;
 	if (!engine.isExplicit())
-		job.model.inertia = [known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); };
+		job.model.inertia = [known = motion](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); };
 }
 
 template <int Dim> void Moving<Dim>::joinRayleigh(const Job<Dim>& job)
@@ -57,7 +57,7 @@ template <int Dim> void Moving<Dim>::joinRayleigh(const Job<Dim>& job)
 	*rayleigh             = { alpha, beta };
 	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(job.model.materials);
 	const auto* masses    = &motion->mass; // masses that include those of the copies where points are divided
-	motion->damping.push_back([known = rayleigh, materials, masses, fBar = job.model.fBar](const gimpm::Beginning<Dim>& step) {
+	motion->damping.push_back([known = rayleigh, materials, masses, fBar = job.model.fBar](const gimpm::StepContext<Dim>& step) {
 		return std::make_unique<gimpm::RayleighDamping<Dim>>(*known, *materials, fBar, *masses, step);
 	});
 }

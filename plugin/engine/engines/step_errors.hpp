@@ -12,15 +12,15 @@ class StepErrors {
 public:
 	explicit StepErrors(const MpmImplicitEngine&); // made once a run begins
 
-	// The load step that is to be tried now, as attempt() makes it. Where loads begin to grow, or turn, no step
-	// before tells what the tolerance admits: there it is a small one.
-	template <int Dim, class F> Attempt<Dim> next(Job<Dim>& job, F&& attempt) const
+	// The load step that is to be tried now, as nextIncrement() makes it. Where loads begin to grow, or turn, no
+	// step before tells what the tolerance admits: there it is a small one.
+	template <int Dim, class F> Attempt<Dim> next(Job<Dim>& job, F&& nextIncrement) const
 	{
-		Attempt<Dim> tried = attempt();
+		Attempt<Dim> tried = nextIncrement();
 		const double grows = tried.load.growth();
 		if (tolerance > 0 && grows != 0 && !(tried.last.load * grows > 0)) {
 			job.control.beginAnew();
-			tried = attempt();
+			tried = nextIncrement();
 		}
 		job.model.newton.stepTolerance = tolerance > 0 && !job.control.isLeast() ? tolerance : gimpm::NewtonSettings().stepTolerance;
 		return tried;

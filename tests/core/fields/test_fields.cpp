@@ -304,7 +304,7 @@ namespace {
 		};
 		const auto keep    = [&](const CloudBasis<2>&, const Eigen::VectorXd& value, const Eigen::VectorXd&) { pressure = value; };
 		model.fields       = { { { "pressure", "Pa", 1, young / h }, start, keep } };
-		model.coupledTerms = { [&](const Beginning<2>& step, const State&) { return std::make_unique<Flow<2>>(medium, step); } };
+		model.coupledTerms = { [&](const StepContext<2>& step, const State&) { return std::make_unique<Flow<2>>(medium, step); } };
 		LinearSolver solver;
 		for (int step = 0; step < steps; ++step) {
 			const auto report = loadStep<2>(cloud, model, { Vec<2>::Zero(), { 1, step == 0 ? 1. : 0. } }, solver);

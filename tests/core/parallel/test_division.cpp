@@ -108,14 +108,14 @@ namespace {
 		}
 		void step(const PointCloud<Dim>& cloud, Model<Dim> model, const Eigen::VectorXd& d)
 		{
-			motion.damping = { [&](const Beginning<Dim>& step) {
+			motion.damping = { [&](const StepContext<Dim>& step) {
 				return std::make_unique<RayleighDamping<Dim>>(rayleigh, model.materials, false, motion.mass, step);
 			} };
-			model.inertia = [&](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(motion, step); };
+			model.inertia = [&](const StepContext<Dim>& step) { return std::make_unique<Inertia<Dim>>(motion, step); };
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, model, { Vec<Dim>::Unit(0), { 1, 0 } }, report);
 			EXPECT_FALSE(system.evaluate(d, force, nullptr));
-			own = system.ownMotion;
+			own = system.inertialPredictor;
 			system.terms.back()->commit(d);
 		}
 	};
@@ -135,7 +135,7 @@ namespace {
 		const StepSystem<Dim> system(all, model, {}, report);
 		const Eigen::VectorXd d = Random(1).vector(system.nodalSize(), 0.01);
 		Moved<Dim>            whole(numbers);
-		EXPECT_FALSE(looseOf(whole.motion, system.beginning()).empty());
+		EXPECT_FALSE(looseOf(whole.motion, system.context()).empty());
 		whole.step(all, model, d);
 		TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
 			Moved<Dim> part(mine.division->id);
@@ -187,7 +187,7 @@ namespace {
                         Motion<Dim>           motion;
                         motion.mass.assign(cloud.size(), 1);
                         std::vector<Key> lowest;
-                        for (const auto& cell : looseOf(motion, system.beginning(), reach))
+                        for (const auto& cell : looseOf(motion, system.context(), reach))
                                 lowest.push_back(system.basis.nodes[cell.node[0]]);
                         return lowest;
 		};
@@ -213,10 +213,10 @@ namespace {
                         motion.duration = 1;
                         motion.mass.assign(cloud.size(), 1);
                         const Eigen::VectorXd velocity = Random(1).vector(system.nodalSize(), isTorn ? 10 : 0.1);
-                        const auto            loose    = looseOf(motion, system.beginning());
-                        const auto            torn     = tornOf(loose, velocity, motion, system.beginning());
+                        const auto            loose    = looseOf(motion, system.context());
+                        const auto            torn     = tornOf(loose, velocity, motion, system.context());
                         EXPECT_EQ(torn.empty(), !isTorn || loose.empty());
-                        return Eigen::VectorXd(massMatrix(motion, system.beginning(), loose, torn) * velocity);
+                        return Eigen::VectorXd(massMatrix(motion, system.context(), loose, torn) * velocity);
 		};
 		const Eigen::VectorXd whole = momenta(all, model, true);
 		EXPECT_GT((whole - 100 * momenta(all, model, false)).norm(), 0.01 * whole.norm());

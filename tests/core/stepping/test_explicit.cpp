@@ -111,7 +111,7 @@ namespace {
 		StepReport            report;
 		const StepSystem<Dim> system(body.cloud, body.model, Load<Dim>(), report);
 		const LinearProblem   K = system.tangent();
-		NodalMass<Dim>        M(system.basis, body.motion->mass, massFaces(*body.motion, system.beginning()), 1);
+		NodalMass<Dim>        M(system.basis, body.motion->mass, massFaces(*body.motion, system.context()), 1);
 		Eigen::VectorXd       x = Random().vector(K.size()), y = x;
 		double                square = 0;
 		for (int i = 0; i < 80; ++i) {

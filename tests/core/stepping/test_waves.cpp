@@ -43,7 +43,7 @@ namespace {
 			this->model.boundary = Boundary<Dim>({}, boxes);
 			for (const auto& box : boxes) {
 				absorbing.push_back(std::make_shared<AbsorbingBoundary<Dim>>(AbsorbingBoundary<Dim> { box }));
-				this->motion->damping.push_back([this, known = absorbing.back()](const Beginning<Dim>& step) {
+				this->motion->damping.push_back([this, known = absorbing.back()](const StepContext<Dim>& step) {
 					return std::make_unique<Absorption<Dim>>(*known, this->model.materials, this->motion->mass, step);
 				});
 			}
@@ -51,7 +51,7 @@ namespace {
 		void damp(double alpha, double beta)
 		{
 			const auto known = std::make_shared<Rayleigh>(Rayleigh { alpha, beta });
-			this->motion->damping.push_back([this, known](const Beginning<Dim>& step) {
+			this->motion->damping.push_back([this, known](const StepContext<Dim>& step) {
 				return std::make_unique<RayleighDamping<Dim>>(*known, this->model.materials, this->model.fBar, this->motion->mass, step);
 			});
 		}

@@ -390,7 +390,7 @@ namespace {
 			model.boundary = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) });
 			cloud          = block<Dim>(model.grid, cellsOf<Dim>(6, 4, 2), 2);
 			model.coupledTerms
-			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<StructureForce<Dim>>(structure, step); } };
+			        = { [this](const StepContext<Dim>& step, const State&) { return std::make_unique<StructureForce<Dim>>(structure, step); } };
 		}
 		Reinforcement<Dim>& nail()
 		{
@@ -447,7 +447,7 @@ namespace {
 		constexpr int Dim         = TypeParam::value;
 		const auto    atBeginning = [](Ground<Dim>& ground) {
                         const StepSystem<Dim> system(ground.cloud, ground.model, {}, ground.report);
-                        const Eigen::VectorXd resistance = -system.beginning().imbalance();
+                        const Eigen::VectorXd resistance = -system.context().imbalance();
                         Vec<Dim>              sum        = Vec<Dim>::Zero();
                         for (Eigen::Index i = 0; i < resistance.size(); ++i)
                                 sum[i % Dim] += resistance[i];
@@ -622,7 +622,7 @@ namespace {
 			structure.beam->section = { 1e7, 1e5 };
 			structure.beam->begin(divided<2>({ { 1.5, 2 }, { 1.5, 0.5 } }, 0.25));
 			moving.model.coupledTerms
-			        = { [&structure](const Beginning<2>& step, const State&) { return std::make_unique<StructureForce<2>>(structure, step); } };
+			        = { [&structure](const StepContext<2>& step, const State&) { return std::make_unique<StructureForce<2>>(structure, step); } };
 			const Vec<2> before  = moving.momentum();
 			double       pressed = 0;
 			for (int step = 0; step < 10; ++step) {

@@ -45,10 +45,10 @@ namespace {
 			pores.place = WaterPlace::pores, outside.place = WaterPlace::outside;
 			pores.pressure = pores.before = std::make_shared<StillWater<Dim>>(1, 1, 1.1, 2e4);
 			outside.pressure = outside.before = std::make_shared<StillWater<Dim>>(1, 1, 0.9, 1e4);
-			model.terms                       = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); },
-				        [this](const Beginning<Dim>& step) { return std::make_unique<WaterForce<Dim>>(pores, step); },
-				        [this](const Beginning<Dim>& step) { return std::make_unique<WaterForce<Dim>>(outside, step); },
-				        [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
+			model.terms                       = { [this](const StepContext<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); },
+				        [this](const StepContext<Dim>& step) { return std::make_unique<WaterForce<Dim>>(pores, step); },
+				        [this](const StepContext<Dim>& step) { return std::make_unique<WaterForce<Dim>>(outside, step); },
+				        [this](const StepContext<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
 			RigidBody<Dim> plate;
 			plate.shape.kind   = RigidKind::plane;
 			plate.shape.normal = Vec<Dim>::Unit(1);

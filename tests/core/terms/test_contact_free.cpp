@@ -25,7 +25,7 @@ namespace {
 				free.isGiven[i] = isRing && i != 1;
 			this->contacts.free = { free };
 			this->model.coupledTerms
-			        = { [this](const Beginning<Dim>&, const State&) { return std::make_unique<ContactCoupling<Dim>>(this->contacts); } };
+			        = { [this](const StepContext<Dim>&, const State&) { return std::make_unique<ContactCoupling<Dim>>(this->contacts); } };
 			Vec<Dim> top = Vec<Dim>::Constant(infinity);
 			top[1]       = 0;
 			std::vector<HeldBox<Dim>> base { held<Dim>(this->model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) };

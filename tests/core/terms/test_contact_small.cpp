@@ -44,7 +44,7 @@ namespace {
 			free.inertia        = inertia * FreeBody<Dim>::Matrix::Identity();
 			this->contacts.free = { free };
 			this->model.coupledTerms
-			        = { [this](const Beginning<Dim>&, const State&) { return std::make_unique<ContactCoupling<Dim>>(this->contacts); } };
+			        = { [this](const StepContext<Dim>&, const State&) { return std::make_unique<ContactCoupling<Dim>>(this->contacts); } };
 			return *this;
 		}
 		StepSystem<Dim> system() { return { this->cloud, this->model, Load<Dim>(), this->report }; }

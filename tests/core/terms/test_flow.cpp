@@ -42,7 +42,7 @@ namespace {
 			water.pores = { { 1e-8, 0.5 } };
 			water.pressure.assign(cloud.size(), 0);
 			model.fields       = { pressureField(water, *model.division, modulus / h) };
-			model.coupledTerms = { [this](const Beginning<Dim>& step, const State&) {
+			model.coupledTerms = { [this](const StepContext<Dim>& step, const State&) {
 				return std::make_unique<Flow<Dim>>(
 				        water, [this](int) { return model.materials[0].young({}, 0); }, step);
 			} };
@@ -65,7 +65,7 @@ namespace {
 		{
 			load.surface = surface, load.traction = traction;
 			load.surface.refine(h / 4);
-			model.terms = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
+			model.terms = { [this](const StepContext<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
 		}
 		StepReport step(double duration)
 		{
@@ -175,7 +175,7 @@ namespace {
 			Column column(10, 0.3, load * Column::young);
 			column.model.newton.tolerance = 1e-6;
 			if (isExact)
-				column.model.coupledTerms = { [&column](const Beginning<2>& step, const State&) {
+				column.model.coupledTerms = { [&column](const StepContext<2>& step, const State&) {
 					auto flow         = std::make_unique<Flow<2>>(
                                                 column.water, [&column](int) { return column.model.materials[0].young({}, 0); }, step);
 					flow->makeExact();

@@ -303,7 +303,7 @@ namespace {
 		for (const double volume : still.cloud.volume0)
 			motion->mass.push_back(80 * volume);
 		motion->scheme       = TimeScheme::midpoint();
-		moving.model.inertia = [motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
+		moving.model.inertia = [motion](const StepContext<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
 		ASSERT_TRUE(still.step(1, 10).converged());
 		const auto report = moving.step(1, 10);
 		ASSERT_TRUE(report.converged()) << report.cause;

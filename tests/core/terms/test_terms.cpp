@@ -37,7 +37,7 @@ namespace {
 			for (const auto& end : ends_)
 				K.markUsed(end.node, itself);
 		}
-		std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
+		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override
 		{
 			for (const auto& end : ends_) {
 				const Vec<Dim> f = force(end, d);
@@ -95,7 +95,7 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e7, 0.3), 2000 } };
 			model.newton.tolerance = 1e-9;
-			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<SpringForce<Dim>>(springs, step.basis); } };
+			model.terms            = { [this](const StepContext<Dim>& step) { return std::make_unique<SpringForce<Dim>>(springs, step.basis); } };
 			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
 			Index<Dim> base        = Index<Dim>::Constant(3);
 			base[1]                = 1;
@@ -209,7 +209,7 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		Raft<Dim>     raft;
 		const double  strength = raft.weight() / 4;
-		raft.model.terms = { [&](const Beginning<Dim>& step) { return std::make_unique<BrittleSprings<Dim>>(raft.springs, step.basis, strength); } };
+		raft.model.terms = { [&](const StepContext<Dim>& step) { return std::make_unique<BrittleSprings<Dim>>(raft.springs, step.basis, strength); } };
 		ASSERT_TRUE(raft.step(0.1).converged());
 		const auto half   = raft.springs.elongation;
 		const auto report = raft.step(1);

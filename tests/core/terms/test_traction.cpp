@@ -63,7 +63,7 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e6, 0), 0 } };
 			model.newton.tolerance = 1e-9;
-			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
+			model.terms            = { [this](const StepContext<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
 			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
 			load.surface           = surface;
 			load.surface.refine(pieceLimit * model.grid.cellSize);
@@ -163,7 +163,7 @@ namespace {
 		}
 	}
 
-	/// Beginning and end of the line do not matter with sides that are the same nodes.
+	/// StepContext and end of the line do not matter with sides that are the same nodes.
 	TYPED_TEST(TractionOf, ForcesAsTheStepBegins)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -29,7 +29,7 @@ namespace {
 			for (const auto& p : pairs_)
 				K.markUsed(p.b, -p.code);
 		}
-		std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
+		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override
 		{
 			for (const auto& [a, b, code] : pairs_) {
 				const Vec<Dim> da = d.template segment<Dim>(Dim * a), db = d.template segment<Dim>(Dim * b);
@@ -59,7 +59,7 @@ namespace {
 		{
 			return stiffness_ * sideways() * (growth(d) * Mat<Dim>::Identity() + 2 / (h_ * h_) * d * d.transpose());
 		}
-		void push(const TermSum<Dim>& sum, int node, const Vec<Dim>& d) const
+		void push(const AssembledTerms<Dim>& sum, int node, const Vec<Dim>& d) const
 		{
 			const Vec<Dim> f = stiffness_ * growth(d) * sideways() * d;
 			sum.force.template segment<Dim>(Dim * node) += f;
@@ -82,7 +82,7 @@ namespace {
 			model.grid.cellSize    = 3. / cells;
 			model.materials        = { { Hencky(young, 0.3), 1e3 } };
 			model.newton.tolerance = 1e-10;
-			model.terms.push_back([young](const Beginning<Dim>& step) {
+			model.terms.push_back([young](const StepContext<Dim>& step) {
 				return std::make_unique<SidewaysForce<Dim>>(0.02 * young * std::pow(step.grid.cellSize, Dim - 2), step.basis, step.grid);
 			});
 			Vec<Dim> max   = Vec<Dim>::Constant(infinity);

@@ -34,7 +34,7 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e6, 0), 2000 } };
 			model.newton.tolerance = 1e-11;
-			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<WaterForce<Dim>>(water, step); } };
+			model.terms            = { [this](const StepContext<Dim>& step) { return std::make_unique<WaterForce<Dim>>(water, step); } };
 			water.place            = place;
 			water.pressure = water.before = std::make_shared<StillWater<Dim>>(1, 1, level, weight);
 			cloud                         = block<Dim>(model.grid, Index<Dim>::Constant(3), perAxis);

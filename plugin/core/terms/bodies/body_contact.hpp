@@ -77,7 +77,7 @@ template <int Dim> struct BodyContacts {
 template <int Dim> class BodyContact : public CoupledTerm<Dim> {
 public:
 	/// The bodies and meetings are written in commit().
-	BodyContact(BodyContacts<Dim>&, const Beginning<Dim>&);
+	BodyContact(BodyContacts<Dim>&, const StepContext<Dim>&);
 
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
@@ -139,9 +139,9 @@ private:
 	};
 	using Slope = typename PairForce<Dim>::Slope;
 
-	void                  addPlaces(int meeting, const Beginning<Dim>&);
+	void                  addPlaces(int meeting, const StepContext<Dim>&);
 	void                  findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void                  takeModuli(const Beginning<Dim>&);
+	void                  takeModuli(const StepContext<Dim>&);
 	void                  findFirst(Place&);
 	void                  keepApart(Place* begin, Place* end);
 	void                  begin(Place&);

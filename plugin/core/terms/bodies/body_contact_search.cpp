@@ -42,7 +42,7 @@ template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& 
 } // namespace
 
 template <int Dim>
-BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& step)
+BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>& step)
         : system_(system)
         , cellSize_(step.grid.cellSize)
         , tolerance_(1e-9 * cellSize_)
@@ -70,7 +70,7 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 		begin(place);
 }
 
-template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
+template <int Dim> void BodyContact<Dim>::addPlaces(int number, const StepContext<Dim>& step)
 {
 	const auto&   meeting = system_.meetings[number];
 	const auto&   slave   = facets_[meeting.slave];
@@ -122,7 +122,7 @@ template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vect
 }
 
 /// The smaller one of both, by the master's cell at the nearest piece.
-template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
+template <int Dim> void BodyContact<Dim>::takeModuli(const StepContext<Dim>& step)
 {
 	std::vector<char>               isAskedFor(step.basis.populatedLeaves().size(), 0);
 	std::vector<std::array<int, 2>> leaves;
@@ -188,7 +188,7 @@ template <int Dim> void BodyContact<Dim>::begin(Place& place)
 	if (place.first) place.closed = place.pressure > 0 ? place.closed + place.pressure / penaltyOf(place) : std::min(0., place.closed);
 }
 
-template BodyContact<2>::BodyContact(BodyContacts<2>&, const Beginning<2>&);
-template BodyContact<3>::BodyContact(BodyContacts<3>&, const Beginning<3>&);
+template BodyContact<2>::BodyContact(BodyContacts<2>&, const StepContext<2>&);
+template BodyContact<3>::BodyContact(BodyContacts<3>&, const StepContext<3>&);
 
 } // namespace gimpm

@@ -63,7 +63,7 @@ template <int Dim> bool isInPeriod(const Vec<Dim>& place, const Grid<Dim>& grid)
 } // namespace
 
 template <int Dim>
-Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
+Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
         : system_(system)
         , tolerance_(1e-9 * step.grid.cellSize)
         , isRing_(step.grid.axisymmetric)
@@ -104,7 +104,7 @@ template <int Dim> void Contact<Dim>::takeSides()
 	}
 }
 
-template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
+template <int Dim> void Contact<Dim>::find(const StepContext<Dim>& step)
 {
 	for (const auto& [body, point, side] : nearPoints(system_.bodies, cloud_, basis_, grid_)) {
 		if (point >= division_.ownOf(cloud_.size())) continue; // the process that has it tells of it
@@ -287,7 +287,7 @@ template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 		markAttached<Dim>(place.pressed, place.pressed, K);
 }
 
-template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
 		addAttachedForce<Dim>(place.pressed, system_.weight * touched.force(), sum);

@@ -81,10 +81,10 @@ constexpr double slipSoftness = 20;
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
-	Contact(ContactSystem<Dim>&, const Beginning<Dim>&);
+	Contact(ContactSystem<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
@@ -127,7 +127,7 @@ private:
 	};
 
 	void                                takeSides();
-	void                                find(const Beginning<Dim>&);
+	void                                find(const StepContext<Dim>&);
 	void                                addPlaces(int body);
 	void                                addPlaces(int body, int layer);
 	void                                addPlace(int body, int layer, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);

@@ -46,7 +46,7 @@ template <int Dim> WaveModuli waveModuli(const std::vector<Material>& materials,
 
 template <int Dim>
 Absorption<Dim>::Absorption(
-        AbsorbingBoundary<Dim>& boundary, const std::vector<Material>& materials, const std::vector<double>& masses, const Beginning<Dim>& step)
+        AbsorbingBoundary<Dim>& boundary, const std::vector<Material>& materials, const std::vector<double>& masses, const StepContext<Dim>& step)
         : boundary_(boundary)
 {
 	addDrag(faces(step), materials, masses, step);
@@ -59,7 +59,7 @@ Absorption<Dim>::Absorption(
 }
 
 /// Those with material on one side. Cells that lie in the box as a whole are beyond.
-template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::faces(const Beginning<Dim>& step)
+template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::faces(const StepContext<Dim>& step)
 {
 	std::vector<Face> found;
 	std::vector<int>  both; // cells with material beyond a face of the boundary
@@ -84,7 +84,7 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 }
 
 /// Where most of it is, and how much there is, of the points that this process has.
-template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vector<int>& beyond, const Beginning<Dim>& step) const
+template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vector<int>& beyond, const StepContext<Dim>& step) const
 {
 	std::vector<char>   isAskedFor(step.basis.cells.size(), 0);
 	std::vector<double> filled(step.basis.cells.size(), 0);
@@ -106,7 +106,7 @@ template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vecto
 /// A face is covered to the part to which its cell is filled.
 template <int Dim>
 void Absorption<Dim>::addDrag(
-        const std::vector<Face>& faces, const std::vector<Material>& materials, const std::vector<double>& masses, const Beginning<Dim>& step)
+        const std::vector<Face>& faces, const std::vector<Material>& materials, const std::vector<double>& masses, const StepContext<Dim>& step)
 {
 	std::vector<char> isAskedFor(step.basis.cells.size(), 0);
 	for (const Face& face : faces)
@@ -137,7 +137,7 @@ void Absorption<Dim>::addDrag(
 }
 
 /// Of divided points those that fill the cells at its own nodes are in this process.
-template <int Dim> void Absorption<Dim>::completeDrag(const Beginning<Dim>& step)
+template <int Dim> void Absorption<Dim>::completeDrag(const StepContext<Dim>& step)
 {
 	Eigen::VectorXd drag = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
 	for (const auto& [node, dashpot] : dashpots_)
@@ -147,7 +147,7 @@ template <int Dim> void Absorption<Dim>::completeDrag(const Beginning<Dim>& step
 		dashpot.drag = drag.template segment<Dim>(Dim * node);
 }
 
-template <int Dim> void Absorption<Dim>::takeOver(const Beginning<Dim>& step)
+template <int Dim> void Absorption<Dim>::takeOver(const StepContext<Dim>& step)
 {
 	if (!boundary_.hasBegun) {
 		boundary_.borne.clear();
@@ -165,7 +165,7 @@ template <int Dim> void Absorption<Dim>::mark(NodeMatrix<Dim>& K) const
 		K.markUsed(node, 0);
 }
 
-template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>& sum) const
+template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
 {
 	for (const auto& [node, dashpot] : dashpots_) {
 		const Vec<Dim> drag = dashpot.drag.cwiseProduct(v.template segment<Dim>(Dim * node)), push = 2 * dashpot.drag.cwiseProduct(boundary_.incoming);

@@ -28,10 +28,10 @@ template <int Dim> struct AbsorbingBoundary {
 template <int Dim> class Absorption : public Damping<Dim> {
 public:
 	/// Masses by point of the cloud [kg].
-	Absorption(AbsorbingBoundary<Dim>&, const std::vector<Material>&, const std::vector<double>& masses, const Beginning<Dim>&);
+	Absorption(AbsorbingBoundary<Dim>&, const std::vector<Material>&, const std::vector<double>& masses, const StepContext<Dim>&);
 
 	void        mark(NodeMatrix<Dim>&) const override;
-	void        add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const override;
+	void        add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	bool        addDiagonal(Eigen::VectorXd& drag) const override;
 	void        addBorne(Eigen::VectorXd& force) const override;
@@ -49,11 +49,11 @@ private:
 		int cell, axis;
 		int node[1 << (Dim - 1)];
 	};
-	std::vector<Face> faces(const Beginning<Dim>&);
-	std::string       textOfBothSides(const std::vector<int>& beyond, const Beginning<Dim>&) const;
-	void              addDrag(const std::vector<Face>&, const std::vector<Material>&, const std::vector<double>& masses, const Beginning<Dim>&);
-	void              completeDrag(const Beginning<Dim>&);
-	void              takeOver(const Beginning<Dim>&);
+	std::vector<Face> faces(const StepContext<Dim>&);
+	std::string       textOfBothSides(const std::vector<int>& beyond, const StepContext<Dim>&) const;
+	void              addDrag(const std::vector<Face>&, const std::vector<Material>&, const std::vector<double>& masses, const StepContext<Dim>&);
+	void              completeDrag(const StepContext<Dim>&);
+	void              takeOver(const StepContext<Dim>&);
 
 	AbsorbingBoundary<Dim>& boundary_;
 	std::map<int, Dashpot>  dashpots_;

@@ -3,7 +3,7 @@
 
 namespace gimpm {
 
-template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const std::vector<DampingOfStep<Dim>>& makers, const Beginning<Dim>& step)
+template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const std::vector<DampingOfStep<Dim>>& makers, const StepContext<Dim>& step)
 {
 	std::vector<std::unique_ptr<Damping<Dim>>> made;
 	const std::function<Eigen::VectorXd()>     imbalance = [&] {
@@ -14,14 +14,14 @@ template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const st
                 step.share.complete(borne);
                 return Eigen::VectorXd(others - borne);
 	};
-	const Beginning<Dim> known { step.cloud, step.basis,      step.grid, step.stiffnessOf, step.faces,
-		                     step.dofs,  step.prescribed, imbalance, step.share,       step.division };
+	const StepContext<Dim> known { step.cloud, step.basis,      step.grid, step.stiffnessOf, step.faces,
+		                       step.dofs,  step.prescribed, imbalance, step.share,       step.division };
 	for (const auto& make : makers)
 		made.push_back(make(known));
 	return made;
 }
 
-template std::vector<std::unique_ptr<Damping<2>>> dampingOf(const std::vector<DampingOfStep<2>>&, const Beginning<2>&);
-template std::vector<std::unique_ptr<Damping<3>>> dampingOf(const std::vector<DampingOfStep<3>>&, const Beginning<3>&);
+template std::vector<std::unique_ptr<Damping<2>>> dampingOf(const std::vector<DampingOfStep<2>>&, const StepContext<2>&);
+template std::vector<std::unique_ptr<Damping<3>>> dampingOf(const std::vector<DampingOfStep<3>>&, const StepContext<3>&);
 
 } // namespace gimpm

@@ -15,7 +15,7 @@ public:
 	virtual void mark(NodeMatrix<Dim>&) const = 0;
 
 	/// Adds the force at v, C times `slope`, which is dv / dd [1/s], and sizes.
-	virtual void add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const = 0;
+	virtual void add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const = 0;
 
 	/// Adds the force at the velocities with which the step begins; where points are divided it is right at the
 	/// nodes of this process, as that of add().
@@ -53,10 +53,10 @@ protected:
 };
 
 /// Makes damping for a step.
-template <int Dim> using DampingOfStep = std::function<std::unique_ptr<Damping<Dim>>(const Beginning<Dim>&)>;
+template <int Dim> using DampingOfStep = std::function<std::unique_ptr<Damping<Dim>>(const StepContext<Dim>&)>;
 
 /// One after the other: to each of them, forces that those before it have taken over belong to the balance, so that of
 /// two edges with the same nodes one alone bears what has held these.
-template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const std::vector<DampingOfStep<Dim>>&, const Beginning<Dim>&);
+template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const std::vector<DampingOfStep<Dim>>&, const StepContext<Dim>&);
 
 } // namespace gimpm

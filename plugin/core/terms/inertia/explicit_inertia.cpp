@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
+template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const StepContext<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);
 	// What is lumped wholly loses angular momentum: only bodies of which no cell is filled.
@@ -21,7 +21,7 @@ template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const Beginning<Di
 } // namespace
 
 template <int Dim>
-ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>& step)
+ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const StepContext<Dim>& step)
         : motion_(motion)
         , share_(step.share)
         , copies_(motion, step.division)
@@ -44,7 +44,7 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
 }
 
 /// Velocities of the points in the middle of the step, by the accelerations that forces ask for as it begins.
-template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
+template <int Dim> void ExplicitInertia<Dim>::begin(const StepContext<Dim>& step)
 {
 	const double          T     = motion_.duration;
 	const Eigen::VectorXd zero  = Eigen::VectorXd::Zero(step.prescribed.size());

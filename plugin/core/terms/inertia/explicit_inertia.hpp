@@ -16,7 +16,7 @@ namespace gimpm {
 template <int Dim> class ExplicitInertia {
 public:
 	/// Velocities and accelerations are written in commit().
-	ExplicitInertia(Motion<Dim>&, const Beginning<Dim>&);
+	ExplicitInertia(Motion<Dim>&, const StepContext<Dim>&);
 
 	/// Whether contact of bodies of points has come to an end.
 	bool        meets() const { return meets_; }
@@ -35,7 +35,7 @@ public:
 	void commit();
 
 private:
-	void begin(const Beginning<Dim>&);
+	void begin(const StepContext<Dim>&);
 	void findMiddle();
 	void meet();
 	void findJump();

@@ -23,7 +23,7 @@ template <int Dim> std::vector<int> nodesOf(const std::vector<Attachment<Dim>>& 
 
 } // namespace
 
-template <int Dim> EdgeDrag<Dim>::EdgeDrag(GroundEdge<Dim>& edge, const Beginning<Dim>& step) : edge_(edge)
+template <int Dim> EdgeDrag<Dim>::EdgeDrag(GroundEdge<Dim>& edge, const StepContext<Dim>& step) : edge_(edge)
 {
 	auto attached = attachPlaces(edge_.surface.vertices, step, edge_.name);
 	attached_     = std::move(attached.places);
@@ -32,7 +32,7 @@ template <int Dim> EdgeDrag<Dim>::EdgeDrag(GroundEdge<Dim>& edge, const Beginnin
 }
 
 /// Forces on the vertices which at the nodes are those that have held these, the least ones in the sense of squares.
-template <int Dim> std::string EdgeDrag<Dim>::takeOver(const Beginning<Dim>& step)
+template <int Dim> std::string EdgeDrag<Dim>::takeOver(const StepContext<Dim>& step)
 {
 	constexpr double tolerance = 1e-6;
 	edge_.borne.assign(attached_.size(), Vec<Dim>::Zero());
@@ -76,7 +76,7 @@ template <int Dim> Vec<Dim> EdgeDrag<Dim>::forceAt(std::size_t v, const Vec<Dim>
 	return edge_.drag[v] * (ground.velocity[v] - velocity) + ground.force[v] + edge_.borne[v];
 }
 
-template <int Dim> void EdgeDrag<Dim>::add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>& sum) const
+template <int Dim> void EdgeDrag<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
 {
 	for (std::size_t i = 0; i < attached_.size() && edge_.acts; ++i) {
 		const auto&    at       = attached_[i];
@@ -123,7 +123,7 @@ template <int Dim> void EdgeDrag<Dim>::commit(const Eigen::VectorXd& d, const Ei
 	}
 }
 
-template <int Dim> EdgeSprings<Dim>::EdgeSprings(GroundEdge<Dim>& edge, const Beginning<Dim>& step) : edge_(edge)
+template <int Dim> EdgeSprings<Dim>::EdgeSprings(GroundEdge<Dim>& edge, const StepContext<Dim>& step) : edge_(edge)
 {
 	auto attached = attachPlaces(edge_.surface.vertices, step, edge_.name);
 	attached_     = std::move(attached.places);
@@ -141,7 +141,7 @@ template <int Dim> Vec<Dim> EdgeSprings<Dim>::forceAt(std::size_t v, const Vec<D
 	return edge_.stiffness[v] * (ground.displacement[v] - (edge_.surface.vertices[v] - edge_.surface.vertices0[v] + moved));
 }
 
-template <int Dim> std::optional<PointFailure> EdgeSprings<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> EdgeSprings<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	for (std::size_t i = 0; i < attached_.size(); ++i) {
 		addAttachedForce(attached_[i], forceAt(i, share() * attached_[i].displacement(d), edge_.now), sum);

@@ -39,10 +39,10 @@ template <int Dim> struct GroundEdge {
 /// What depends on velocities, and what acts whatever the body does.
 template <int Dim> class EdgeDrag : public Damping<Dim> {
 public:
-	EdgeDrag(GroundEdge<Dim>&, const Beginning<Dim>&);
+	EdgeDrag(GroundEdge<Dim>&, const StepContext<Dim>&);
 
 	void        mark(NodeMatrix<Dim>&) const override;
-	void        add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const override;
+	void        add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	void        addBorne(Eigen::VectorXd& force) const override;
 	std::string obstacle() const override { return obstacle_; }
@@ -50,7 +50,7 @@ public:
 	void        commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) override;
 
 private:
-	std::string takeOver(const Beginning<Dim>&);
+	std::string takeOver(const StepContext<Dim>&);
 	Vec<Dim>    forceAt(std::size_t vertex, const Vec<Dim>& velocity, const GroundMotion<Dim>&) const; // on the body
 
 	GroundEdge<Dim>&             edge_;
@@ -61,10 +61,10 @@ private:
 /// What depends on displacements.
 template <int Dim> class EdgeSprings : public Term<Dim> {
 public:
-	EdgeSprings(GroundEdge<Dim>&, const Beginning<Dim>&);
+	EdgeSprings(GroundEdge<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }

@@ -8,7 +8,7 @@
 namespace gimpm {
 
 template <int Dim>
-Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
+Inertia<Dim>::Inertia(Motion<Dim>& motion, const StepContext<Dim>& step)
         : motion_(motion)
         , division_(step.division)
         , share_(step.share)
@@ -31,7 +31,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 	findStart(step);
 }
 
-template <int Dim> void Inertia<Dim>::findExtent(const Beginning<Dim>& step)
+template <int Dim> void Inertia<Dim>::findExtent(const StepContext<Dim>& step)
 {
 	motion_.loosePoints = countOfPoints(loose_, step);
 	if (motion_.loosePoints == 0) return;
@@ -49,7 +49,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofExtent(const Eigen::VectorXd&
 /// Velocities and accelerations at the nodes, those of the points, or where they are at the beginning the accelerations
 /// of equilibrium. What the latter would do besides is kept for the balance of energy: found anew in each step, they
 /// would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
-template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
+template <int Dim> void Inertia<Dim>::findStart(const StepContext<Dim>& step)
 {
 	const bool isDriven = motion_.scheme.dependsOnStart();
 	const bool isFirst  = begins(motion_, division_);
@@ -69,7 +69,7 @@ template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 }
 
 /// Of all forces as the step begins, also at held nodes.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim>& step) const
+template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<Dim>& step) const
 {
 	Eigen::VectorXd all = step.imbalance();
 	if (!damping_.empty()) {
@@ -105,7 +105,7 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 }
 
 /// Where velocities tear loose cells they are found again, with more mass there.
-template <int Dim> void Inertia<Dim>::mend(const Beginning<Dim>& step, bool withAcceleration)
+template <int Dim> void Inertia<Dim>::mend(const StepContext<Dim>& step, bool withAcceleration)
 {
 	if (motion_.loosePoints == 0) return;
 	const auto torn = tornOf(loose_, velocity_, motion_, step);
@@ -216,7 +216,7 @@ template <int Dim> std::string Inertia<Dim>::obstacle() const
 	return {};
 }
 
-template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	const auto&           scheme = motion_.scheme;
 	const double          weight = 1 - scheme.alphaF, ofEnd = (1 - scheme.alphaM) / weight;
@@ -265,7 +265,7 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 
 /// Bodies that meet might move far into each other by themselves, and what touches as the step begins would not be what
 /// touches at its end. Where that would take larger forces than to stop all nodes they stay where they are.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
+template <int Dim> Eigen::VectorXd Inertia<Dim>::inertialPredictor() const
 {
 	const double    T = motion_.duration;
 	Eigen::VectorXd d = T * velocity_ + T * T / 2 * expected_;

@@ -16,10 +16,10 @@ namespace gimpm {
 template <int Dim> class Inertia : public Term<Dim> {
 public:
 	/// To be made after all other terms. Velocities and accelerations are written in commit().
-	Inertia(Motion<Dim>&, const Beginning<Dim>&);
+	Inertia(Motion<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>& K) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd&) const override { }
 	bool                        isSymmetric() const override;
 	std::string                 obstacle() const override;
@@ -32,7 +32,7 @@ public:
 	bool isSingular() const { return isSingular_; }
 
 	/// Displacements by which the body goes on by itself, with the prescribed ones.
-	Eigen::VectorXd ownMotion() const;
+	Eigen::VectorXd inertialPredictor() const;
 
 	/// Adds what round-off of d leaves of its force, which is more than round-off of strains does [N].
 	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const;
@@ -51,11 +51,11 @@ private:
 		Eigen::VectorXd d, force, acceleration;
 	};
 
-	void            findExtent(const Beginning<Dim>&);
-	void            findStart(const Beginning<Dim>&);
+	void            findExtent(const StepContext<Dim>&);
+	void            findStart(const StepContext<Dim>&);
 	void            findVelocity(bool withAcceleration);
-	void            mend(const Beginning<Dim>&, bool withAcceleration);
-	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
+	void            mend(const StepContext<Dim>&, bool withAcceleration);
+	Eigen::VectorXd imbalanceOf(const StepContext<Dim>&) const;
 	void            solve(const std::vector<Side>&);
 	void            solveByFactor(const std::vector<Side>&);
 	void            solveAlong(int axis, const Side&, const Eigen::VectorXd& rest);

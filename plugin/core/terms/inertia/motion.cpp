@@ -29,7 +29,7 @@ template <int Dim> bool begins(const Motion<Dim>& motion, const Division& divisi
 	return isZero;
 }
 
-template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const StepContext<Dim>& step)
 {
 	if (motion.ghostMass == 0) return {};
 	std::vector<GhostFace<Dim>> faces   = step.faces;
@@ -41,13 +41,13 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step, int reach)
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const StepContext<Dim>& step, int reach)
 {
 	if (motion.ghostMass == 0) return {};
 	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach, step.division);
 }
 
-template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, const Beginning<Dim>& step)
+template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, const StepContext<Dim>& step)
 {
 	double count = 0;
 	for (const auto& cell : cells)
@@ -57,7 +57,7 @@ template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, c
 
 /// At most what points have which fill half a cell; and less in short steps, in which inertia would keep the stiffness
 /// of the points from telling at once what they do not see.
-template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>& loose, const Motion<Dim>& motion, const Beginning<Dim>& step)
+template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>& loose, const Motion<Dim>& motion, const StepContext<Dim>& step)
 {
 	constexpr double ofStiffness   = 1e-2;
 	const auto       squareOfSpeed = [&](int p) { // of waves; none where nothing tears
@@ -81,7 +81,7 @@ template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseC
 
 template <int Dim>
 std::vector<LooseCell<Dim>> tornOf(
-        const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>& motion, const Beginning<Dim>& step)
+        const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>& motion, const StepContext<Dim>& step)
 {
 	const auto&                 leaves = step.basis.populatedLeaves();
 	const MastersOf             masters(int(step.basis.nodes.size()), &step.basis.ties);
@@ -110,7 +110,7 @@ std::vector<LooseCell<Dim>> tornOf(
 
 template <int Dim>
 MassMatrix<Dim> massMatrix(
-        const Motion<Dim>& motion, const Beginning<Dim>& step, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn)
+        const Motion<Dim>& motion, const StepContext<Dim>& step, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn)
 {
 	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose);
 	M.lump(torn, ofHalfACell);
@@ -132,7 +132,7 @@ Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<d
 }
 
 template <int Dim>
-Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
+Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>& bases, const StepContext<Dim>& step)
 {
 	Eigen::VectorXd x = otherwise;
 	for (const auto& base : bases)
@@ -143,17 +143,17 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
-	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
-	template std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);                          \
-	template int                         countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);                                         \
-	template std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>&, const Eigen::VectorXd&, const Motion<Dim>&, const Beginning<Dim>&);    \
+	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const StepContext<Dim>&, int);                                                        \
+	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const StepContext<Dim>&);                                                           \
+	template std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const StepContext<Dim>&);                        \
+	template int                         countOfPoints(const std::vector<LooseCell<Dim>>&, const StepContext<Dim>&);                                       \
+	template std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>&, const Eigen::VectorXd&, const Motion<Dim>&, const StepContext<Dim>&);  \
 	template MassMatrix<Dim>             massMatrix(                                                                                                       \
-	                    const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&, const std::vector<LooseCell<Dim>>&);                \
+	                    const Motion<Dim>&, const StepContext<Dim>&, const std::vector<LooseCell<Dim>>&, const std::vector<LooseCell<Dim>>&);              \
 	template bool begins(const Motion<Dim>&, const Division&);                                                                                             \
 	template class MotionOfCopies<Dim>;                                                                                                                    \
 	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare&);           \
-	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const StepContext<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

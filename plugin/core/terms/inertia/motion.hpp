@@ -61,28 +61,28 @@ private:
 template <int Dim> bool begins(const Motion<Dim>&, const Division&);
 
 /// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
-template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const StepContext<Dim>&);
 
 /// None without ghost mass: then nothing is connected, and mass is that of the points alone.
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int reach = Dim);
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const StepContext<Dim>&, int reach = Dim);
 
 /// The points in them, of all processes.
-template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);
+template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const StepContext<Dim>&);
 
 /// What the extent of points in loose cells adds to the inertia of their middles, as the mass of these cells that
 /// resists accelerations, while it is not remembered: of laws that flow.
-template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);
+template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const StepContext<Dim>&);
 
 /// Loose cells that nodal velocities would tear within the step, with the nodes that are free along the axis of the
 /// gap, -1 for the others: there they move apart by more than the size of the cell. Points that pass each other
 /// determine such a field, whose gradient has no bound as the way between them has none.
 template <int Dim>
-std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>&, const Beginning<Dim>&);
+std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>&, const StepContext<Dim>&);
 
 /// (M + M_g) of all points, with those of loose cells, and of torn ones what the extent of points has that fill half a
 /// cell: else what nodes make of their velocities would be given to the points as energy.
 template <int Dim>
-MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn = {});
+MassMatrix<Dim> massMatrix(const Motion<Dim>&, const StepContext<Dim>&, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn = {});
 
 /// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
 template <int Dim>
@@ -91,7 +91,7 @@ Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>
 template <int Dim> using OfBase = Vec<Dim> MovingBase<Dim>::*;
 
 /// A value of the held degrees of freedom.
-template <int Dim> Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+template <int Dim> Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>&, const StepContext<Dim>&);
 
 /// The impulse by which held nodes get `velocity`, where that is more than round-off, of the largest momentum.
 template <class Mass, class IsHeld>

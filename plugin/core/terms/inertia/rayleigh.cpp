@@ -7,7 +7,7 @@ namespace gimpm {
 
 template <int Dim>
 RayleighDamping<Dim>::RayleighDamping(
-        Rayleigh& settings, const std::vector<Material>& materials, bool fBar, const std::vector<double>& masses, const Beginning<Dim>& step)
+        Rayleigh& settings, const std::vector<Material>& materials, bool fBar, const std::vector<double>& masses, const StepContext<Dim>& step)
         : settings_(settings), share_(step.share)
 {
 	const auto points = stepPoints(step.cloud, materials, step.basis, fBar);
@@ -31,7 +31,7 @@ template <int Dim> void RayleighDamping<Dim>::mark(NodeMatrix<Dim>& K) const
 			if (C_.used(a, code)) K.markUsed(a, code);
 }
 
-template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>& sum) const
+template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
 {
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
 	C_.multiplyAdd(v, force);

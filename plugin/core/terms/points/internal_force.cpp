@@ -54,7 +54,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const Colours<Dim>& colours, const StepPoints<Dim>& points, const std::vector<Material>& materials,
-        const Eigen::VectorXd& d, const TermSum<Dim>& sum, double part)
+        const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum, double part)
 {
 	const Pass<Dim> pass { basis, points, materials, d, sum, colours, part * points.duration, part == 0 };
 	if constexpr (Dim == 2)
@@ -94,7 +94,7 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 	template StepPoints<Dim>             stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool);                   \
 	template std::optional<PointFailure> addInternalForce(                                                                                                 \
 	        const CloudBasis<Dim>&, const Colours<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&,                     \
-	        const TermSum<Dim>&, double);                                                                                                                  \
+	        const AssembledTerms<Dim>&, double);                                                                                                           \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

@@ -64,10 +64,11 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std:
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,
-        const TermSum<Dim>&, double part = 1);
+        const AssembledTerms<Dim>&, double part = 1);
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
-        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d,
+        const AssembledTerms<Dim>& sum)
 {
 	return addInternalForce(basis, basis.colours, points, materials, d, sum);
 }
@@ -84,13 +85,13 @@ public:
 	{
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override { return add(d, sum, 1); }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override { return add(d, sum, 1); }
 	void                        addBefore(Eigen::VectorXd& force) const override { add(Eigen::VectorXd::Zero(force.size()), { force }, 0); }
 	bool                        isSymmetric() const override { return points_.isSymmetric; }
 
 protected:
 	/// After so much of the step's time.
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum, double part) const
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum, double part) const
 	{
 		return addInternalForce(basis_, colours_, points_, materials_, d, sum, part);
 	}

@@ -15,7 +15,7 @@ template <int Dim> struct Pass {
 	const StepPoints<Dim>&       points;
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
-	const TermSum<Dim>&          sum;
+	const AssembledTerms<Dim>&   sum;
 	const Colours<Dim>&          colours     = basis.colours; ///< or what one process does of them
 	const double                 duration    = 0;             ///< of the step until now
 	const bool                   isBeginning = false;         ///< none of the step has gone by

@@ -75,7 +75,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 }
 
 template <int Dim>
-Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
         : water_(water)
         , basis_(step.basis)
         , h_(step.grid.cellSize)
@@ -102,7 +102,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 
 /// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct. A face has what
 /// the less permeable of its two cells has: the pressure may bend where soils meet.
-template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
 {
 	const auto&             cells = step.basis.cells;
 	std::vector<double>     volume(cells.size(), 0), softness(cells.size(), 0);
@@ -139,7 +139,7 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 
 /// Nodes of points, of cells and of ghost faces. Where most points reach as far as they can, those that do not are
 /// taken to do so, too: the pattern of the matrix then stays as they move, and with it its symbolic analysis.
-template <int Dim> void Flow<Dim>::findNear(const Beginning<Dim>& step)
+template <int Dim> void Flow<Dim>::findNear(const StepContext<Dim>& step)
 {
 	const auto& code = Window<Dim>::get().code;
 	double      more = 0; // of the windows that are whole than of others

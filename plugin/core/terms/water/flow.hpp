@@ -31,7 +31,7 @@ public:
 	static constexpr int field = 1;
 
 	/// The water is kept by reference, and written in commitCoupled().
-	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const Beginning<Dim>&);
+	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const StepContext<Dim>&);
 	~Flow() override;
 
 	/// With the sign of the field. What flow in the pores adds by the displacements has no transpose; it is added
@@ -70,11 +70,11 @@ private:
 			return sum;
 		}
 	};
-	void        weighCells(const ConstrainedModulus&, const Beginning<Dim>&);
-	void        findNear(const Beginning<Dim>&);
-	void        attachDrains(const Beginning<Dim>&);
-	std::string attachDrain(int number, const Beginning<Dim>&);
-	std::string enclosure(const Beginning<Dim>&) const;
+	void        weighCells(const ConstrainedModulus&, const StepContext<Dim>&);
+	void        findNear(const StepContext<Dim>&);
+	void        attachDrains(const StepContext<Dim>&);
+	std::string attachDrain(int number, const StepContext<Dim>&);
+	std::string enclosure(const StepContext<Dim>&) const;
 
 	const FlowBlocks<Dim>& blocksIn(Couplings&) const;
 

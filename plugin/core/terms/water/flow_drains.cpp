@@ -47,7 +47,7 @@ std::vector<DrainPlace<3>> placesOf(const Surface<3>& surface, const Grid<3>&)
 
 } // namespace
 
-template <int Dim> void Flow<Dim>::attachDrains(const Beginning<Dim>& step)
+template <int Dim> void Flow<Dim>::attachDrains(const StepContext<Dim>& step)
 {
 	for (int number = 0; number < int(water_.drains.size()) && obstacle_.empty(); ++number)
 		obstacle_ = attachDrain(number, step);
@@ -55,7 +55,7 @@ template <int Dim> void Flow<Dim>::attachDrains(const Beginning<Dim>& step)
 
 /// Water passes as through a thin skin: nodes of cut cells are not held at the pressure outside, which would close
 /// cells that are nearly empty.
-template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginning<Dim>& step)
+template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepContext<Dim>& step)
 {
 	const Drain<Dim>& drain   = water_.drains[number];
 	const auto&       surface = drain.surface;
@@ -85,7 +85,7 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginnin
 
 /// A pressure that is the same everywhere moves nothing where all sides are held: it is unknown unless there is a way
 /// out.
-template <int Dim> std::string Flow<Dim>::enclosure(const Beginning<Dim>& step) const
+template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step) const
 {
 	const bool hasWayOut = std::any_of(outlets_.begin(), outlets_.end(), [](const Outlet& o) { return o.conductance > 0; });
 	if (hasWayOut || std::isfinite(water_.modulus)) return "";
@@ -142,8 +142,8 @@ template <int Dim> void Flow<Dim>::moveDrains(const Eigen::VectorXd& d, const Ei
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void        Flow<Dim>::attachDrains(const Beginning<Dim>&);                                                                                   \
-	template std::string Flow<Dim>::enclosure(const Beginning<Dim>&) const;                                                                                \
+	template void        Flow<Dim>::attachDrains(const StepContext<Dim>&);                                                                                 \
+	template std::string Flow<Dim>::enclosure(const StepContext<Dim>&) const;                                                                              \
 	template void        Flow<Dim>::addDrains(const Eigen::VectorXd&, const FieldSum<Dim>&) const;                                                         \
 	template void        Flow<Dim>::moveDrains(const Eigen::VectorXd&, const Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

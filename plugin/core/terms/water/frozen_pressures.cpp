@@ -4,7 +4,7 @@
 
 namespace gimpm {
 
-template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& ofOwnPoints, const Beginning<Dim>& step)
+template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& ofOwnPoints, const StepContext<Dim>& step)
 {
 	auto pressures = ofOwnPoints;
 	step.division.extend(pressures);
@@ -24,7 +24,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 		}
 }
 
-template <int Dim> std::optional<PointFailure> FrozenPressures<Dim>::add(const Eigen::VectorXd&, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> FrozenPressures<Dim>::add(const Eigen::VectorXd&, const AssembledTerms<Dim>& sum) const
 {
 	sum.force += force_;
 	if (sum.sizes) *sum.sizes += sizes_;

@@ -9,10 +9,10 @@ namespace gimpm {
 /// are: what is left of the flow at one moment.
 template <int Dim> class FrozenPressures : public Term<Dim> {
 public:
-	FrozenPressures(const std::vector<double>& ofOwnPoints, const Beginning<Dim>&);
+	FrozenPressures(const std::vector<double>& ofOwnPoints, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override { }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 
 private:
 	Eigen::VectorXd force_, sizes_;

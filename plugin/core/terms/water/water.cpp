@@ -120,7 +120,7 @@ private:
 	bool   follows_;
 };
 
-template <int Dim> void addTo(const TermSum<Dim>& sum, const WetPoint<Dim>& wet, double factor)
+template <int Dim> void addTo(const AssembledTerms<Dim>& sum, const WetPoint<Dim>& wet, double factor)
 {
 	const auto& at = wet.at;
 	for (int n = 0; n < at.count; ++n) {
@@ -152,7 +152,7 @@ std::array<double, windowNodes<Dim>> gainBeyond(
 } // namespace
 
 template <int Dim>
-WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step)
+WaterForce<Dim>::WaterForce(Water<Dim>& water, const StepContext<Dim>& step)
         : water_(water), basis_(step.basis), grid_(step.grid), dofs_(step.dofs), share_(step.share)
 {
 	for (const int p : basis_.order) {
@@ -198,7 +198,7 @@ std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterPlace 
 
 template <int Dim> void WaterForce<Dim>::mark(NodeMatrix<Dim>& K) const { markPointPattern(basis_, K); }
 
-template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
 	return forWetPoints(When::now, water_.place, d, [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo(sum, wet, water_.factor);

@@ -42,10 +42,10 @@ template <int Dim> struct Water {
 template <int Dim> class WaterForce : public Term<Dim> {
 public:
 	/// Results are written to the water in commit().
-	WaterForce(Water<Dim>&, const Beginning<Dim>&);
+	WaterForce(Water<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override
 	{

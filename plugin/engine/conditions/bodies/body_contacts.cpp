@@ -162,7 +162,7 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 		system->meetings.push_back(coreMeeting(*contact));
 	}
 	model.coupledTerms.push_back(
-	        [known = system](const gimpm::Beginning<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::BodyContact<Dim>>(*known, step); });
+	        [known = system](const gimpm::StepContext<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::BodyContact<Dim>>(*known, step); });
 }
 
 template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "engine/analysis/telling.hpp"
+#include "engine/analysis/output_columns.hpp"
 
 namespace yade {
 class Analysis;

@@ -235,11 +235,12 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 	advanceTo(begin);
 	if (!system->free.empty()) {
 		requireAlone(model);
-		model.coupledTerms.push_back(
-		        [known = system](const gimpm::Beginning<Dim>&, const gimpm::State&) { return std::make_unique<gimpm::ContactCoupling<Dim>>(*known); });
+		model.coupledTerms.push_back([known = system](const gimpm::StepContext<Dim>&, const gimpm::State&) {
+			return std::make_unique<gimpm::ContactCoupling<Dim>>(*known);
+		});
 	}
 	if (!inTime && model.division->isWhole()) distance = warningOfDistance(around.cloud); // in time soil may come by itself
-	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
+	model.terms.push_back([known = system](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
 	const auto shrink = [known = system](const gimpm::PointCloud<Dim>&, Real scale) {
 		for (auto& record : known->records)
 			record.gap *= scale;

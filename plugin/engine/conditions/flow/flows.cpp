@@ -106,14 +106,14 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
 	isRamp     = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
 	model.fields.push_back(gimpm::pressureField(water, *model.division, sum / model.grid.cellSize));
-	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::Beginning<Dim>& step, const gimpm::State&) {
+	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::StepContext<Dim>& step, const gimpm::State&) {
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step);
 	});
 	model.freeze = [this, field = model.fields.size() - 1, term = model.coupledTerms.size() - 1](gimpm::Model<Dim>& at) {
 		at.fields.erase(at.fields.begin() + field);
 		at.coupledTerms.erase(at.coupledTerms.begin() + term);
-		at.terms.push_back([this](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step); });
+		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step); });
 	};
 }
 

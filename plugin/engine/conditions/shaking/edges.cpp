@@ -43,7 +43,7 @@ template <int Dim> void Edges<Dim>::joinMotion(gimpm::Motion<Dim>& joined, const
 	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(model.materials);
 	const auto* masses    = &joined.mass; // masses that include those of the copies where points are divided
 	for (const auto& [from, edge] : edges)
-		joined.damping.push_back([known = edge, materials, masses](const gimpm::Beginning<Dim>& step) {
+		joined.damping.push_back([known = edge, materials, masses](const gimpm::StepContext<Dim>& step) {
 			return std::make_unique<gimpm::Absorption<Dim>>(*known, *materials, *masses, step);
 		});
 }

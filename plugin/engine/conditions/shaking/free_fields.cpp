@@ -140,14 +140,14 @@ void FreeFields::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 		edges.push_back(edgeOf(listed, model, around.cloud));
 	for (const auto& edge : edges)
 		if (!edge->stiffness.empty())
-			model.terms.push_back([edge](const gimpm::Beginning<2>& step) { return std::make_unique<gimpm::EdgeSprings<2>>(*edge, step); });
+			model.terms.push_back([edge](const gimpm::StepContext<2>& step) { return std::make_unique<gimpm::EdgeSprings<2>>(*edge, step); });
 }
 
 void FreeFields::joinMotion(gimpm::Motion<2>& motion, const gimpm::Model<2>&, Real)
 {
 	for (const auto& edge : edges) {
 		edge->atMiddle = motion.scheme.atMiddle;
-		motion.damping.push_back([edge](const gimpm::Beginning<2>& step) { return std::make_unique<gimpm::EdgeDrag<2>>(*edge, step); });
+		motion.damping.push_back([edge](const gimpm::StepContext<2>& step) { return std::make_unique<gimpm::EdgeDrag<2>>(*edge, step); });
 	}
 }
 

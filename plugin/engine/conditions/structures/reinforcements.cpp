@@ -90,8 +90,9 @@ template <int Dim> void loadBar(gimpm::Reinforcement<Dim>& bar, const MpmReinfor
 template <int Dim> void joinStructure(gimpm::Structure<Dim>& structure, gimpm::Model<Dim>& model)
 {
 	using Vec = gimpm::Vec<Dim>;
-	model.coupledTerms.push_back(
-	        [&structure](const gimpm::Beginning<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::StructureForce<Dim>>(structure, step); });
+	model.coupledTerms.push_back([&structure](const gimpm::StepContext<Dim>& step, const gimpm::State&) {
+		return std::make_unique<gimpm::StructureForce<Dim>>(structure, step);
+	});
 	const auto places = std::make_shared<std::vector<std::vector<Vec>>>();
 	model.inPlace.push_back({ [&structure, places](const gimpm::PointCloud<Dim>&, Real scale) {
 		                         structure.stiffen(scale);

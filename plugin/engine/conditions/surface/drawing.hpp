@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Surfaces as cells of a picture.
-#include "engine/analysis/telling.hpp"
+#include "engine/analysis/output_columns.hpp"
 #include "engine/conditions/surface/MpmSurface.hpp"
 
 namespace yade {

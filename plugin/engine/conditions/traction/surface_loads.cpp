@@ -66,7 +66,7 @@ template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model, const 
 		loads.back().surface.refine(gimpm::pieceLimit * model.grid.cellSize);
 	}
 	for (auto& load : loads)
-		model.terms.push_back([&load](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Traction<Dim>>(load, step); });
+		model.terms.push_back([&load](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::Traction<Dim>>(load, step); });
 }
 
 template <int Dim> void SurfaceLoads<Dim>::advanceTo(Real time)

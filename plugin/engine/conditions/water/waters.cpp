@@ -56,7 +56,7 @@ template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surrou
 	take(around.analysis, model.grid, around.cloud, *model.division, around.begin, around.target, std::move(among));
 	for (auto& water : waters) {
 		water.shares = model.shares;
-		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
+		model.terms.push_back([&water](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
 	}
 }
 
