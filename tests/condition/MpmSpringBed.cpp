@@ -36,7 +36,7 @@ namespace {
 			for (const End& end : ends) {
 				const Vec<Dim> f = force(end, d);
 				sum.force.template segment<Dim>(Dim * end.node) += f;
-				if (sum.sizes) sum.sizes->template segment<Dim>(Dim * end.node) += f.cwiseAbs();
+				if (sum.absoluteContributions) sum.absoluteContributions->template segment<Dim>(Dim * end.node) += f.cwiseAbs();
 				if (sum.K) sum.K->add(end.node, end.node, 0, bed.stiffness * gimpm::Mat<Dim>::Identity());
 			}
 			return std::nullopt;

@@ -85,7 +85,7 @@ public:
 		addGhost(P, sum);
 		return std::nullopt;
 	}
-	void addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& sizes) const override
+	void addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& absoluteContributions) const override
 	{
 		constexpr double      roundOff = 10 * precision;
 		const Eigen::VectorXd P        = state.value(field);
@@ -94,7 +94,8 @@ public:
 			for (int n = 0; n < count; ++n)
 				if (patch.node[n] >= 0) slope += G[n].norm() * std::abs(P[patch.node[n]]);
 			for (int n = 0; n < count; ++n)
-				if (patch.node[n] >= 0) sizes[field][patch.node[n]] += roundOff * medium_.conductivity * volume_[point] * slope * G[n].norm();
+				if (patch.node[n] >= 0)
+					absoluteContributions[field][patch.node[n]] += roundOff * medium_.conductivity * volume_[point] * slope * G[n].norm();
 		});
 	}
 
@@ -118,9 +119,9 @@ private:
 			const double   flow   = medium_.sign * conductivity * s.volume * s.slope.dot(G[n]);
 			const double   stored = medium_.sign * medium_.storage * s.volume * (s.J - 1) * S[n];
 			sum.force[0].template segment<Dim>(Dim * a) += push;
-			sum.sizes[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
+			sum.absoluteContributions[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
 			sum.force[field][a] += flow + stored;
-			sum.sizes[field][a] += std::abs(flow) + std::abs(stored);
+			sum.absoluteContributions[field][a] += std::abs(flow) + std::abs(stored);
 		}
 	}
 	void addStiffness(const PointState& s, const Patch<Dim>& patch, const double* S, const Vec<Dim>* G, const FieldSum<Dim>& sum) const

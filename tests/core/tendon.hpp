@@ -29,7 +29,7 @@ public:
 		for (int i = 0; i < 2; ++i) {
 			const double force = sign(i) * forceAt(state);
 			sum.force[0][Dim * node_[i]] += force;
-			sum.sizes[0][Dim * node_[i]] += std::abs(force);
+			sum.absoluteContributions[0][Dim * node_[i]] += std::abs(force);
 			for (int j = 0; j < 2 && sum.couplings; ++j) {
 				Mat<Dim> k = Mat<Dim>::Zero();
 				k(0, 0)    = sign(i) * sign(j) * tendon_.stiffness;

@@ -9,7 +9,7 @@ double sizeOfForces(const Balance& balance) { return balance.fields.empty() ? ba
 
 } // namespace
 
-template <int Dim> Balance WholeBalance<Dim>::of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const
+template <int Dim> Balance WholeBalance<Dim>::of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const
 {
 	const auto&            dofs     = system_.dofs;
 	const Eigen::VectorXd& external = system_.external;
@@ -32,13 +32,14 @@ template <int Dim> Balance WholeBalance<Dim>::of(const Eigen::VectorXd& d, const
 	reference += std::pow(system_.fromOutside(system_.map.displacements(d)) / scale, 2);
 	b.size      = scale * std::sqrt(imbalance);
 	b.reference = scale * std::sqrt(reference);
-	if (!system_.map.isAlone()) addFields(b, d, force, sizes);
+	if (!system_.map.isAlone()) addFields(b, d, force, absoluteContributions);
 	return b;
 }
 
 /// What is out of balance of another field is what is left of all that enters or leaves at the nodes. The worst unknown
 /// is that of the field which is least in balance.
-template <int Dim> void WholeBalance<Dim>::addFields(Balance& b, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const
+template <int Dim>
+void WholeBalance<Dim>::addFields(Balance& b, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const
 {
 	const DofMap&         map      = system_.map;
 	const Eigen::VectorXd roundOff = system_.roundOff(d);
@@ -46,7 +47,7 @@ template <int Dim> void WholeBalance<Dim>::addFields(Balance& b, const Eigen::Ve
 	double largest                 = relativeOf(0, b.fields[0], true);
 	for (int f = 1; f < map.fields(); ++f) {
 		Eigen::VectorXd residual = -force;
-		Balance::Part   part { 0, normOf(f, sizes), normOf(f, roundOff), -1 };
+		Balance::Part   part { 0, normOf(f, absoluteContributions), normOf(f, roundOff), -1 };
 		for (int i = map.begin(f); i < map.end(f); ++i)
 			if (const int n = system_.dofs.number[i]; n < 0) residual[i] = 0;
 			else {

@@ -78,8 +78,8 @@ template <int Dim> class WholeBalance {
 public:
 	explicit WholeBalance(const StepSystem<Dim>& system) : system_(system), elastic_(system) { }
 
-	/// Of this sum of the terms at d; their sizes where there are several fields.
-	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const;
+	/// Of this sum of the terms at d; their absolute contributions where there are several fields.
+	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const;
 
 	/// The one at the start of the step: forces of this size are its scale to the end.
 	void begin(const Balance&);
@@ -89,11 +89,12 @@ public:
 	/// several fields causes.
 	void enter(const Balance&, const Eigen::VectorXd& caused);
 
-	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at
+	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces
+	/// at
 	/// the start of the step, as in unloading, or with those that prescribed displacements cause at first, as in a
 	/// rigid motion; and it is zero where it is round-off of stresses that balance each other, at an iterate that a
 	/// solve has led to. Of several fields that which is least in balance counts. Others than displacements are
-	/// compared with the sizes of all that enters or leaves at the nodes.
+	/// compared with the absolute contributions of all that enters or leaves at the nodes.
 	double relative(const Balance&, bool isSolved) const;
 
 	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual
@@ -101,7 +102,7 @@ public:
 	double roundOff(const Eigen::VectorXd& d) const;
 
 private:
-	void   addFields(Balance&, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const;
+	void   addFields(Balance&, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const;
 	double normOf(int field, const Eigen::VectorXd& all) const;
 	double relativeOfDisplacements(double size, double reference, bool isSolved) const;
 	double relativeOf(int field, const Balance::Part&, bool isSolved) const;

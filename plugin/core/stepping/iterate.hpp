@@ -26,9 +26,10 @@ public:
 		const Stopwatch watch(report_.times.assembly);
 		hasStiffness = withStiffness;
 		// Where no stiffness is needed the iteration is about to end.
-		hasSizes_ = !withStiffness || !system_.map.isAlone();
-		failure   = system_.evaluate(d, force, withStiffness ? &K : nullptr, hasSizes_ ? &sizes_ : nullptr, withStiffness ? &beside : nullptr);
-		balance   = whole.of(d, force, sizes_);
+		hasContributions_ = !withStiffness || !system_.map.isAlone();
+		failure           = system_.evaluate(
+		                  d, force, withStiffness ? &K : nullptr, hasContributions_ ? &absoluteContributions_ : nullptr, withStiffness ? &beside : nullptr);
+		balance = whole.of(d, force, absoluteContributions_);
 		if (failure || !std::isfinite(balance.size)) balance.size = std::numeric_limits<double>::infinity();
 	}
 
@@ -38,9 +39,9 @@ public:
 	{
 		const Stopwatch watch(report_.times.assembly);
 		Eigen::VectorXd again;
-		if (!hasSizes_) system_.evaluate(d, again, nullptr, &sizes_);
-		hasSizes_ = true;
-		return local_.ratio(balance.residual, sizes_, d, enough, caused_);
+		if (!hasContributions_) system_.evaluate(d, again, nullptr, &absoluteContributions_);
+		hasContributions_ = true;
+		return local_.ratio(balance.residual, absoluteContributions_, d, enough, caused_);
 	}
 
 	/// With the last evaluation prescribed growth has entered, which of several fields alone would cause these
@@ -63,9 +64,9 @@ private:
 	const StepSystem<Dim>& system_;
 	StepReport&            report_;
 	LocalBalance<Dim>      local_;
-	Eigen::VectorXd        sizes_; // of the forces
+	Eigen::VectorXd        absoluteContributions_; // of the forces
 	Eigen::VectorXd        caused_;
-	bool                   hasSizes_ = false;
+	bool                   hasContributions_ = false;
 };
 
 } // namespace gimpm

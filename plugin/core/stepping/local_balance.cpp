@@ -41,34 +41,40 @@ double largestRatio(const Eigen::VectorXd& residual, const Eigen::VectorXd& forc
 
 template <int Dim>
 double LocalBalance<Dim>::ratio(
-        const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough, const Eigen::VectorXd& caused) const
+        const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough,
+        const Eigen::VectorXd& caused) const
 {
 	Eigen::VectorXd nodal = Eigen::VectorXd::Zero(d.size());
 	for (int i = 0; i < nodal.size(); ++i)
 		if (system_.dofs.number[i] >= 0) nodal[i] = residual[system_.dofs.number[i]];
-	double largest = ratioOfDisplacements(nodal, sizes, d, enough);
+	double largest = ratioOfDisplacements(nodal, absoluteContributions, d, enough);
 	for (int field = 1; field < system_.map.fields(); ++field)
-		largest = std::max(largest, ratioOf(field, nodal, caused.size() > 0 ? Eigen::VectorXd(sizes + caused) : sizes, system_.roundOff(d)));
+		largest = std::max(
+		        largest,
+		        ratioOf(field, nodal, caused.size() > 0 ? Eigen::VectorXd(absoluteContributions + caused) : absoluteContributions,
+		                system_.roundOff(d)));
 	return largest;
 }
 
 /// Flows are compared with the largest one in all, as strains are.
 template <int Dim>
-double LocalBalance<Dim>::ratioOf(int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& roundOff) const
+double LocalBalance<Dim>::ratioOf(
+        int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& roundOff) const
 {
 	const auto lengths = [&](const Eigen::VectorXd& nodal) {
 		const int width = system_.map[field].width;
 		return Eigen::VectorXd(
 		        Eigen::Map<const Eigen::MatrixXd>(nodal.data() + system_.map.begin(field), width, system_.map.nodes()).colwise().template lpNorm<1>());
 	};
-	const Eigen::VectorXd left = around(lengths(residual)) / system_.map[field].scale, there = around(lengths(sizes));
+	const Eigen::VectorXd left = around(lengths(residual)) / system_.map[field].scale, there = around(lengths(absoluteContributions));
 	return largestRatio((left - around(lengths(roundOff))).cwiseMax(0), there.array() + negligible * there.maxCoeff());
 }
 
 template <int Dim>
-double LocalBalance<Dim>::ratioOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
+double LocalBalance<Dim>::ratioOfDisplacements(
+        const Eigen::VectorXd& nodal, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough) const
 {
-	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(sizes + system_.external.cwiseAbs()));
+	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(absoluteContributions + system_.external.cwiseAbs()));
 	const double          found = largestRatio(left, there);
 	if (found <= enough) return found;
 	const double          strain = negligible * largestStrain(d) + elastic_.prescribedStrain(), motion = elastic_.strainOf(d);

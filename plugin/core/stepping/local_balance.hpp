@@ -15,17 +15,18 @@ public:
 	LocalBalance(const StepSystem<Dim>& system, const NodeMatrix<Dim>& K) : system_(system), elastic_(system), K_(K) { }
 
 	/// The largest ratio over all neighbourhoods of residual to forces, if that is above `enough`; else an upper
-	/// bound of it. The forces are the `sizes` of the terms' (StepSystem::evaluate) and the external ones; where
-	/// these are too small for that, as after unloading, also those of the stresses at the start of the step and
-	/// those that prescribed displacements can cause. What is round-off of the displacements d is no residual. Of
-	/// several fields each is looked at, and the least balanced one counts; there is also what prescribed growth
-	/// has `caused`.
+	/// bound of it. The forces are the `absoluteContributions` of the terms' (StepSystem::evaluate) and the
+	/// external ones; where these are too small for that, as after unloading, also those of the stresses at the
+	/// start of the step and those that prescribed displacements can cause. What is round-off of the displacements
+	/// d is no residual. Of several fields each is looked at, and the least balanced one counts; there is also what
+	/// prescribed growth has `caused`.
 	double ratio(
-	        const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough, const Eigen::VectorXd& caused) const;
+	        const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough,
+	        const Eigen::VectorXd& caused) const;
 
 private:
-	double          ratioOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const;
-	double          ratioOf(int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& roundOff) const;
+	double ratioOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough) const;
+	double ratioOf(int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& roundOff) const;
 	Eigen::VectorXd lengths(const Eigen::VectorXd& nodal) const;
 	Eigen::VectorXd around(const Eigen::VectorXd& ofNode) const;
 	double          largestStrain(const Eigen::VectorXd& d) const;

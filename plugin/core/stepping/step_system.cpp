@@ -224,42 +224,43 @@ template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const E
 /// The other terms first: where points fail there is no state to couple.
 template <int Dim>
 std::optional<PointFailure> StepSystem<Dim>::addCoupled(
-        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const
 {
 	const State at     = state(d);
 	auto        forces = map.zeros(), parts = forces;
 	if (beside) beside->setZero();
-	auto                failure = addTerms(at.displacements(), { forces[0], K, sizes ? &parts[0] : nullptr });
+	auto                failure = addTerms(at.displacements(), { forces[0], K, absoluteContributions ? &parts[0] : nullptr });
 	const FieldSum<Dim> sum { forces, parts, K, beside };
 	for (auto term = coupled_.begin(); term != coupled_.end() && !failure; ++term)
 		failure = (*term)->addCoupled(at, sum);
 	force = map.joined(forces);
-	if (sizes) *sizes = map.joined(parts);
+	if (absoluteContributions) *absoluteContributions = map.joined(parts);
 	return failure;
 }
 
 /// Forces on the nodes of the other terms, as the step begins.
 template <int Dim> void StepSystem<Dim>::addCoupledBefore(Eigen::VectorXd& resistance) const
 {
-	auto forces = map.zeros(), sizes = forces;
+	auto forces = map.zeros(), absoluteContributions = forces;
 	for (const auto* term : coupled_)
-		term->addCoupledBefore(state(Eigen::VectorXd::Zero(map.size())), { forces, sizes });
+		term->addCoupledBefore(state(Eigen::VectorXd::Zero(map.size())), { forces, absoluteContributions });
 	resistance += forces[0];
 }
 
 template <int Dim>
 std::optional<PointFailure> StepSystem<Dim>::evaluate(
-        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const
 {
 	force = Eigen::VectorXd::Zero(map.size());
 	if (K) K->setZero();
-	if (sizes) *sizes = force;
-	std::optional<PointFailure> failure = isCoupled() ? addCoupled(d, force, K, sizes, beside) : addTerms(d, { force, K, sizes });
+	if (absoluteContributions) *absoluteContributions = force;
+	std::optional<PointFailure> failure
+	        = isCoupled() ? addCoupled(d, force, K, absoluteContributions, beside) : addTerms(d, { force, K, absoluteContributions });
 	constraints.template fold<Dim>(map, force);
-	if (sizes) constraints.template fold<Dim>(map, *sizes);
+	if (absoluteContributions) constraints.template fold<Dim>(map, *absoluteContributions);
 	failure = share_->firstOf(failure);
 	completeForces(force); // those of a failure are reported, by all alike
-	if (sizes && !failure) completeForces(*sizes);
+	if (absoluteContributions && !failure) completeForces(*absoluteContributions);
 	return failure;
 }
 
@@ -283,9 +284,9 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::completed(Eigen::VectorXd fo
 template <int Dim> Eigen::VectorXd StepSystem<Dim>::otherForces(const Eigen::VectorXd& d) const
 {
 	const std::size_t first  = 1 + isStabilised_;
-	auto              forces = map.zeros(), sizes = forces;
+	auto              forces = map.zeros(), absoluteContributions = forces;
 	for (const auto* term : coupled_)
-		term->addCoupled(state(d), { forces, sizes });
+		term->addCoupled(state(d), { forces, absoluteContributions });
 	return sumOf(first, terms.size() - first, d) + completed(forces[0]);
 }
 
@@ -319,19 +320,19 @@ template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d)
 
 template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::VectorXd& d) const
 {
-	const Eigen::VectorXd displacements = map.displacements(d);
-	Eigen::VectorXd       sizes         = Eigen::VectorXd::Zero(nodalSize());
-	if (inertia) inertia->addRoundOff(displacements, sizes);
+	const Eigen::VectorXd displacements         = map.displacements(d);
+	Eigen::VectorXd       absoluteContributions = Eigen::VectorXd::Zero(nodalSize());
+	if (inertia) inertia->addRoundOff(displacements, absoluteContributions);
 	if (isCoupled()) {
 		auto blocks = map.zeros();
-		blocks[0]   = sizes;
+		blocks[0]   = absoluteContributions;
 		for (const auto* term : coupled_)
 			term->addCoupledRoundOff(state(d), blocks);
-		sizes = map.joined(blocks);
+		absoluteContributions = map.joined(blocks);
 	}
-	constraints.template fold<Dim>(map, sizes);
-	if (isCoupled()) completeForces(sizes);
-	return sizes;
+	constraints.template fold<Dim>(map, absoluteContributions);
+	if (isCoupled()) completeForces(absoluteContributions);
+	return absoluteContributions;
 }
 
 template <int Dim> void StepSystem<Dim>::commit(const Eigen::VectorXd& d) const

@@ -15,7 +15,7 @@ namespace gimpm {
 template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&);
 
 template <int Dim> struct StepSystem {
-	/// Step 1 and the ghost faces; reports sizes and times.
+	/// Step 1 and the ghost faces; reports numbers and times.
 	StepSystem(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, StepReport&);
 	StepSystem(const StepSystem&) = delete; // the terms refer to what is here
 
@@ -65,11 +65,12 @@ template <int Dim> struct StepSystem {
 	LinearProblem               tangent() const;
 	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
 
-	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only
-	/// the share is right, rows and columns. Forces at tied nodes are given to their masters; of K that is left to
-	/// whoever reduces it. `beside` goes with K.
+	/// The sum of the terms at d: sets `force`, and K and the absolute contributions of the forces where they are
+	/// given. Of K only the share is right, rows and columns. Forces at tied nodes are given to their masters; of K
+	/// that is left to whoever reduces it. `beside` goes with K.
 	std::optional<PointFailure> evaluate(
-	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr, Couplings* beside = nullptr) const;
+	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions = nullptr,
+	        Couplings* beside = nullptr) const;
 
 	/// Of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
 	Eigen::VectorXd ghostForce(const Eigen::VectorXd& d) const { return sumOf(1, isStabilised_, d); }
@@ -130,7 +131,7 @@ private:
 	Eigen::VectorXd             completed(Eigen::VectorXd force) const;
 	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const;
 	std::optional<PointFailure> addCoupled(
-	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const;
+	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const;
 };
 
 } // namespace gimpm

@@ -40,10 +40,10 @@ template <int N> struct Energy {
 struct EnergySum {
 	double                              value = 0;
 	Eigen::VectorXd                     gradient;
-	Eigen::VectorXd                     sizes; ///< sums of the magnitudes that make up the gradient
+	Eigen::VectorXd                     absoluteContributions; ///< sums of the magnitudes that make up the gradient
 	std::vector<Eigen::Triplet<double>> hessian;
 
-	explicit EnergySum(Eigen::Index unknowns) : gradient(Eigen::VectorXd::Zero(unknowns)), sizes(gradient) { }
+	explicit EnergySum(Eigen::Index unknowns) : gradient(Eigen::VectorXd::Zero(unknowns)), absoluteContributions(gradient) { }
 
 	template <int N> void add(const std::array<LinearForm, N>& of, const Energy<N>& energy)
 	{
@@ -52,7 +52,7 @@ struct EnergySum {
 			for (int i = 0; i < of[a].count; ++i) {
 				const double part = of[a].factor[i] * energy.gradient[a];
 				gradient[of[a].index[i]] += part;
-				sizes[of[a].index[i]] += std::abs(part);
+				absoluteContributions[of[a].index[i]] += std::abs(part);
 				for (int b = 0; b < N; ++b)
 					for (int j = 0; j < of[b].count; ++j)
 						hessian.emplace_back(of[a].index[i], of[b].index[j], of[a].factor[i] * energy.hessian(a, b) * of[b].factor[j]);

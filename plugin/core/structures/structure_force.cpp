@@ -299,7 +299,8 @@ template <int Dim> void StructureForce<Dim>::spread(const EnergySum& at, const F
 			const int    node   = attached_[v]->node[n];
 			const double weight = attached_[v]->weight[n];
 			sum.force[0].template segment<Dim>(Dim * node) += weight * at.gradient.template segment<Dim>(first);
-			sum.sizes[0].template segment<Dim>(Dim * node) += std::abs(weight) * at.sizes.template segment<Dim>(first);
+			sum.absoluteContributions[0].template segment<Dim>(Dim * node)
+			        += std::abs(weight) * at.absoluteContributions.template segment<Dim>(first);
 		}
 	}
 }

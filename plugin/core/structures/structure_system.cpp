@@ -403,7 +403,7 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 	EnergySum        sum = energyAt(at.x, secants);
 	for (int step = 0; step < mostSteps; ++step) {
 		const Eigen::VectorXd gradient = sum.gradient.tail(own);
-		if (!(gradient.norm() > tolerance * sum.sizes.tail(own).norm())) break;
+		if (!(gradient.norm() > tolerance * sum.absoluteContributions.tail(own).norm())) break;
 		const Eigen::VectorXd direction = this->direction(sum);
 		const double          slope = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
 		Eigen::VectorXd       x = at.x;
@@ -417,7 +417,7 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 		}
 		at.x = x, sum = std::move(next);
 	}
-	at.isFound = sum.gradient.tail(own).norm() <= roundOffOfForces * sum.sizes.tail(own).norm();
+	at.isFound = sum.gradient.tail(own).norm() <= roundOffOfForces * sum.absoluteContributions.tail(own).norm();
 	return at;
 }
 

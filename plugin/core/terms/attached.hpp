@@ -38,7 +38,7 @@ template <int Dim, template <int> class Places> void addAttachedForce(const Plac
 	for (int n = 0; n < at.nodes; ++n) {
 		const Vec<Dim> f = at.weight[n] * force;
 		sum.force.template segment<Dim>(Dim * at.node[n]) -= f;
-		if (sum.sizes) sum.sizes->template segment<Dim>(Dim * at.node[n]) += f.cwiseAbs();
+		if (sum.absoluteContributions) sum.absoluteContributions->template segment<Dim>(Dim * at.node[n]) += f.cwiseAbs();
 	}
 }
 

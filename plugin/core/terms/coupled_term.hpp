@@ -13,8 +13,8 @@ namespace gimpm {
 /// Where a term adds its part, one block a field. Of other fields than the displacements the sum of all terms has to
 /// vanish: their sources belong to terms, too.
 template <int Dim> struct FieldSum {
-	std::vector<Eigen::VectorXd>& force; ///< of the displacements [N]
-	std::vector<Eigen::VectorXd>& sizes; ///< of the parts that make it up, whatever their signs: with them the residual is compared
+	std::vector<Eigen::VectorXd>& force;                 ///< of the displacements [N]
+	std::vector<Eigen::VectorXd>& absoluteContributions; ///< of the parts that make it up, whatever their signs: with them the residual is compared
 	/// Derivative of the first block by displacements of neighbours, when it is asked for; reset and marked.
 	NodeMatrix<Dim>* K         = nullptr;
 	Couplings*       couplings = nullptr; ///< all other derivatives; with K
@@ -33,7 +33,7 @@ public:
 	/// Marks the blocks that it adds to the matrix beside those of neighbours, for which there is mark().
 	virtual void markCouplings(Couplings&) const = 0;
 
-	/// Adds forces, sizes and their derivatives at an iterate.
+	/// Adds forces, absolute contributions and their derivatives at an iterate.
 	virtual std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const = 0;
 
 	/// Adds its forces as they were when the step began.
@@ -41,7 +41,7 @@ public:
 
 	/// Adds what round-off of the unknowns leaves of its forces, where round-off of strains leaves less: of a flow
 	/// by gradients, what large values of little slope leave.
-	virtual void addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& /*sizes*/) const { }
+	virtual void addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& /*absoluteContributions*/) const { }
 
 	/// From now on all derivatives are those of the forces. False if they are so already: small ones may be left
 	/// out, where that makes the matrix symmetric.

@@ -201,11 +201,11 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 
 template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
-	const Eigen::VectorXd before = sum.sizes ? sum.force : Eigen::VectorXd();
+	const Eigen::VectorXd before = sum.absoluteContributions ? sum.force : Eigen::VectorXd();
 	if (from_.size() > 0) addGhostForce<Dim>(faces_, h_, d - from_, sum.force);
 	else
 		addGhostForce(faces_, h_, d, sum.force);
-	if (sum.sizes) *sum.sizes += (sum.force - before).cwiseAbs();
+	if (sum.absoluteContributions) *sum.absoluteContributions += (sum.force - before).cwiseAbs();
 	if (sum.K) addGhostStiffness(faces_, h_, *sum.K);
 	return std::nullopt;
 }

@@ -43,9 +43,9 @@ struct LocalError {
 
 /// Where a term adds its part. Vectors have Dim components a node.
 template <int Dim> struct AssembledTerms {
-	Eigen::VectorXd& force;           ///< [N]
-	NodeMatrix<Dim>* K     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
-	Eigen::VectorXd* sizes = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
+	Eigen::VectorXd& force;                           ///< [N]
+	NodeMatrix<Dim>* K                     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
+	Eigen::VectorXd* absoluteContributions = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
 };
 
 /// One kind of forces that resist the displacements d of the nodes in the step: residual = external forces - sum of the
@@ -58,7 +58,7 @@ public:
 	/// Marks the blocks of K that add() writes.
 	virtual void mark(NodeMatrix<Dim>&) const = 0;
 
-	/// Adds force, stiffness and sizes at d. After a failure the sums are of no use.
+	/// Adds force, stiffness and absolute contributions at d. After a failure the sums are of no use.
 	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const = 0;
 
 	/// Adds its force as it was when the step began, whatever moves or grows in the step.

@@ -64,8 +64,8 @@ namespace {
 			Load<Dim>             load { -9.81 * Vec<Dim>::Unit(Dim - 1), { 1, 1 } };
 			const StepSystem<Dim> whole(all, model, load, report);
 			const Eigen::VectorXd d = Random(1).vector(whole.nodalSize(), 0.02);
-			Eigen::VectorXd       force, sizes;
-			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &sizes));
+			Eigen::VectorXd       force, absoluteContributions;
+			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &absoluteContributions));
 			TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
 				EXPECT_LT(cloud.size(), 0.7 * double(all.size()));
 				const std::size_t own = cloud.size();
@@ -79,10 +79,10 @@ namespace {
 					EXPECT_EQ(system.basis.nodes, whole.basis.nodes);
 					EXPECT_EQ(system.basis.cells, whole.basis.cells);
 					EXPECT_EQ(ofMine.ghostFaces, report.ghostFaces);
-					Eigen::VectorXd found, foundSizes;
-					EXPECT_FALSE(system.evaluate(d, found, nullptr, &foundSizes));
+					Eigen::VectorXd found, foundContributions;
+					EXPECT_FALSE(system.evaluate(d, found, nullptr, &foundContributions));
 					EXPECT_LT((found - force).norm(), 1e-13 * force.norm());
-					EXPECT_LT((foundSizes - sizes).norm(), 1e-13 * sizes.norm());
+					EXPECT_LT((foundContributions - absoluteContributions).norm(), 1e-13 * absoluteContributions.norm());
 					EXPECT_LT((system.external - whole.external).norm(), 1e-13 * whole.external.norm());
 				}
 				EXPECT_EQ(cloud.size(), own);

@@ -48,19 +48,20 @@ namespace {
 			StepReport            report;
 			const StepSystem<Dim> whole(cloud, model, {}, report);
 			Random                numbers(1);
-			Eigen::VectorXd       d = Eigen::VectorXd::NullaryExpr(whole.nodalSize(), [&] { return numbers.in(-0.02, 0.02); }), force, sizes;
-			NodeMatrix<Dim>       K;
+			Eigen::VectorXd       d = Eigen::VectorXd::NullaryExpr(whole.nodalSize(), [&] { return numbers.in(-0.02, 0.02); }), force,
+			                absoluteContributions;
+			NodeMatrix<Dim> K;
 			whole.prepare(K);
-			ASSERT_FALSE(whole.evaluate(d, force, &K, &sizes));
+			ASSERT_FALSE(whole.evaluate(d, force, &K, &absoluteContributions));
 			const Eigen::MatrixXd all = dense(K);
 			for (const int processes : { 2, 3 })
 				for (int rank = 0, next = 0; rank < processes; ++rank) {
 					model.processes = std::make_shared<OneOf>(rank, processes);
 					const StepSystem<Dim> part(cloud, model, {}, report);
-					Eigen::VectorXd       ownForce, ownSizes;
+					Eigen::VectorXd       ownForce, ownContributions;
 					NodeMatrix<Dim>       ownK;
 					part.prepare(ownK);
-					ASSERT_FALSE(part.evaluate(d, ownForce, &ownK, &ownSizes));
+					ASSERT_FALSE(part.evaluate(d, ownForce, &ownK, &ownContributions));
 					const int first = Dim * part.share().first(), rows = Dim * part.share().last() - first;
 					EXPECT_EQ(first, next);
 					EXPECT_GT(rows, 0);
@@ -69,7 +70,7 @@ namespace {
 					next               = first + rows;
 					const auto differs = [&](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };
 					EXPECT_LT(differs(ownForce.segment(first, rows), force.segment(first, rows)), 1e-13);
-					EXPECT_LT(differs(ownSizes.segment(first, rows), sizes.segment(first, rows)), 1e-13);
+					EXPECT_LT(differs(ownContributions.segment(first, rows), absoluteContributions.segment(first, rows)), 1e-13);
 					const Eigen::MatrixXd own = dense(ownK);
 					EXPECT_LT(differs(own.middleRows(first, rows), all.middleRows(first, rows)), 1e-13);
 					EXPECT_LT(differs(own.middleCols(first, rows), all.middleCols(first, rows)), 1e-13);

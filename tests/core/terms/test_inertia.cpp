@@ -56,9 +56,9 @@ namespace {
 		const Mat<Dim>        slope  = Random().matrix<Dim, Dim>();
 		const Eigen::VectorXd linear = nodal(mass.basis, grid, [&](const Vec<Dim>& x) { return Vec<Dim>(slope * x); });
 		const auto            ghost  = mass.ofGhost(0.5);
-		const double          size   = ghost.sizesTimes(linear).maxCoeff();
+		const double          size   = ghost.absoluteTimes(linear).maxCoeff();
 		EXPECT_GT(size, 0);
-		EXPECT_LT((ghost * ones).template lpNorm<Eigen::Infinity>(), 4 * precision * ghost.sizesTimes(ones).maxCoeff());
+		EXPECT_LT((ghost * ones).template lpNorm<Eigen::Infinity>(), 4 * precision * ghost.absoluteTimes(ones).maxCoeff());
 		EXPECT_LT((ghost * linear).template lpNorm<Eigen::Infinity>(), 4 * precision * size);
 		const Eigen::VectorXd square = linear.cwiseProduct(linear);
 		EXPECT_GT(square.dot(ghost * square), 1e-3 * square.dot(mass.matrix(0.5) * square)) << "other fields have some";

@@ -42,7 +42,7 @@ namespace {
 			for (const auto& end : ends_) {
 				const Vec<Dim> f = force(end, d);
 				sum.force.template segment<Dim>(Dim * end.node) += f;
-				if (sum.sizes) sum.sizes->template segment<Dim>(Dim * end.node) += f.cwiseAbs();
+				if (sum.absoluteContributions) sum.absoluteContributions->template segment<Dim>(Dim * end.node) += f.cwiseAbs();
 				if (sum.K) Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(sum.K->at(end.node, itself)) += springs_.stiffness;
 			}
 			return std::nullopt;
@@ -122,15 +122,15 @@ namespace {
 		Random                random;
 		const Eigen::VectorXd d = random.vector(with.nodalSize(), 1e-3);
 		NodeMatrix<Dim>       K, K0;
-		Eigen::VectorXd       force, force0, sizes, sizes0;
+		Eigen::VectorXd       force, force0, absoluteContributions, absoluteContributions0;
 		with.prepare(K), without.prepare(K0);
-		ASSERT_FALSE(with.evaluate(d, force, &K, &sizes) || without.evaluate(d, force0, &K0, &sizes0));
+		ASSERT_FALSE(with.evaluate(d, force, &K, &absoluteContributions) || without.evaluate(d, force0, &K0, &absoluteContributions0));
 		Eigen::VectorXd k = Eigen::VectorXd::Zero(d.size()); // the springs' stiffness at each degree of freedom
 		for (const auto& [key, elongation] : raft.springs.elongation)
 			k.template segment<Dim>(Dim * position(with.basis.nodes, key)).fill(raft.stiffness);
 		const Eigen::VectorXd expected = k.cwiseProduct(d);
 		EXPECT_LT((force - force0 - expected).norm(), 1e-10 * force.norm());
-		EXPECT_LT((sizes - sizes0 - expected.cwiseAbs()).norm(), 1e-10 * sizes.norm());
+		EXPECT_LT((absoluteContributions - absoluteContributions0 - expected.cwiseAbs()).norm(), 1e-10 * absoluteContributions.norm());
 		EXPECT_LT((dense(K) - dense(K0) - Eigen::MatrixXd(k.asDiagonal())).norm(), 1e-12 * dense(K).norm());
 		EXPECT_NEAR(with.fromOutside(d) / expected.norm(), 1, 1e-12);
 		EXPECT_TRUE(with.isSymmetric());
@@ -157,8 +157,8 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		Raft<Dim>     raft;
 		ASSERT_TRUE(raft.step(1).converged());
-		StepReport            sizes;
-		const StepSystem<Dim> system(raft.cloud, raft.model, raft.load(1.01), sizes);
+		StepReport            numbers;
+		const StepSystem<Dim> system(raft.cloud, raft.model, raft.load(1.01), numbers);
 		const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.nodalSize());
 		Eigen::VectorXd       force;
 		ASSERT_FALSE(system.evaluate(start, force, nullptr));

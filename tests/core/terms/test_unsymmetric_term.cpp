@@ -63,7 +63,7 @@ namespace {
 		{
 			const Vec<Dim> f = stiffness_ * growth(d) * sideways() * d;
 			sum.force.template segment<Dim>(Dim * node) += f;
-			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * node) += f.cwiseAbs();
+			if (sum.absoluteContributions) sum.absoluteContributions->template segment<Dim>(Dim * node) += f.cwiseAbs();
 		}
 
 		double            stiffness_, h_;

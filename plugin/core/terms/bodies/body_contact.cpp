@@ -170,14 +170,14 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 
 template <int Dim>
 void BodyContact<Dim>::addForces(
-        const std::vector<PairNode>& nodes, const PairAction<Dim>& action, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const
+        const std::vector<PairNode>& nodes, const PairAction<Dim>& action, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const
 {
 	for (const PairNode& one : nodes) {
 		Vec<Dim> f = Vec<Dim>::Zero();
 		for (int i = 0; i <= Dim; ++i)
 			f += factor * one.weight[i] * action.force[i];
 		force.template segment<Dim>(Dim * one.node) -= f;
-		if (sizes) sizes->template segment<Dim>(Dim * one.node) += f.cwiseAbs();
+		if (absoluteContributions) absoluteContributions->template segment<Dim>(Dim * one.node) += f.cwiseAbs();
 	}
 }
 
@@ -203,24 +203,25 @@ template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& 
 }
 
 template <int Dim>
-void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K, PairSlope slopes) const
+void BodyContact<Dim>::add(
+        const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings* K, PairSlope slopes) const
 {
 	if (places_.empty()) return;
 	if (!K) {
 		for (const Touching& touching : look(d).touching)
-			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, sizes);
+			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, absoluteContributions);
 		return;
 	}
 	look(d, slopes, [&](const Touching& touching, const Slope& slope) {
 		const auto nodes = nodesOf(touching.place, touching.near);
-		addForces(nodes, touching.force, factor, force, sizes);
+		addForces(nodes, touching.force, factor, force, absoluteContributions);
 		addSlope(nodes, slope, factor, *K);
 	});
 }
 
 template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
-	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings, slope());
+	add(state.displacements(), system_.weight, sum.force[0], &sum.absoluteContributions[0], sum.couplings, slope());
 	return std::nullopt;
 }
 

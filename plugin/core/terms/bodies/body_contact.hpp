@@ -157,15 +157,16 @@ private:
 	PairSlope             slope() const { return isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric; }
 	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
 	void                  markNodes(const Place&, std::vector<int>& nodes) const;
-	void                  add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*, PairSlope) const;
-	void    addForces(const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const;
-	void    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
-	void    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
-	void    moveSurfaces(const Places& now);
-	double  work(const Eigen::VectorXd& d) const;
-	double  given(const Eigen::VectorXd& d) const;
-	Refusal refusalOfEnergy(const Eigen::VectorXd& d) const;
-	double  approach(const BodyMeeting<Dim>&, const Places& now) const;
+	void add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings*, PairSlope) const;
+	void addForces(
+	        const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const;
+	void                    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
+	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	void                    moveSurfaces(const Places& now);
+	double                  work(const Eigen::VectorXd& d) const;
+	double                  given(const Eigen::VectorXd& d) const;
+	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
+	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
 	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
 

@@ -8,21 +8,21 @@
 namespace gimpm {
 namespace {
 
-constexpr double balanced = 1e-11; ///< what may be left of forces, over their sizes
+constexpr double balanced = 1e-11; ///< what may be left of forces, over their absolute contributions
 constexpr int    most     = 200;   ///< iterations
 
 template <int Dim> struct Balance {
 	using Free = FreeBody<Dim>;
-	typename Free::Vector residual, sizes;
+	typename Free::Vector residual, absoluteContributions;
 	bool                  touches = false;
 
 	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<PlaceOfFree<Dim>>& places)
 	{
-		residual = body.inertia * motion - body.push;
-		sizes    = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
+		residual              = body.inertia * motion - body.push;
+		absoluteContributions = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
 		for (const auto& place : places) {
 			const typename Free::Vector force = Lever<Dim>(place).moves.transpose() * place.force;
-			residual += force, sizes += force.cwiseAbs();
+			residual += force, absoluteContributions += force.cwiseAbs();
 			touches = touches || place.gap <= 0;
 		}
 		for (int i = 0; i < Free::unknowns; ++i)
@@ -36,7 +36,7 @@ template <int Dim> struct Balance {
 		return result;
 	}
 	double left(double size) const { return scaled(residual, size).norm(); }
-	double whole(double size) const { return scaled(sizes, size).norm(); }
+	double whole(double size) const { return scaled(absoluteContributions, size).norm(); }
 };
 
 /// A body that touches nothing and has no inertia goes by its push to the first place that it meets.

@@ -170,7 +170,8 @@ template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double sl
 	for (const auto& [node, dashpot] : dashpots_) {
 		const Vec<Dim> drag = dashpot.drag.cwiseProduct(v.template segment<Dim>(Dim * node)), push = 2 * dashpot.drag.cwiseProduct(boundary_.incoming);
 		sum.force.template segment<Dim>(Dim * node) += drag - push - dashpot.borne;
-		if (sum.sizes) sum.sizes->template segment<Dim>(Dim * node) += drag.cwiseAbs() + push.cwiseAbs() + dashpot.borne.cwiseAbs();
+		if (sum.absoluteContributions)
+			sum.absoluteContributions->template segment<Dim>(Dim * node) += drag.cwiseAbs() + push.cwiseAbs() + dashpot.borne.cwiseAbs();
 		if (sum.K && sum.K->keeps(node))
 			for (int a = 0; a < Dim; ++a)
 				sum.K->at(node, 0)[a * (Dim + 1)] += slope * dashpot.drag[a];

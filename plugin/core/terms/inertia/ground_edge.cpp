@@ -83,11 +83,11 @@ template <int Dim> void EdgeDrag<Dim>::add(const Eigen::VectorXd& v, double slop
 		const Vec<Dim> velocity = at.displacement(v), force = forceAt(i, velocity, edge_.now);
 		addAttachedForce<Dim>(at, force, { sum.force });
 		if (sum.K) addAttachedStiffness<Dim>(at, at, -slope * edge_.drag[i], *sum.K);
-		if (!sum.sizes) continue;
+		if (!sum.absoluteContributions) continue;
 		const Vec<Dim> size = (edge_.drag[i] * velocity).cwiseAbs() + (edge_.drag[i] * edge_.now.velocity[i]).cwiseAbs() + edge_.now.force[i].cwiseAbs()
 		        + edge_.borne[i].cwiseAbs();
 		for (int n = 0; n < at.nodes; ++n)
-			sum.sizes->template segment<Dim>(Dim * at.node[n]) += std::abs(at.weight[n]) * size;
+			sum.absoluteContributions->template segment<Dim>(Dim * at.node[n]) += std::abs(at.weight[n]) * size;
 	}
 }
 

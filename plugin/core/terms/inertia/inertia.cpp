@@ -230,7 +230,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	force += blow_ / motion_.duration;
 	if (extent_) force += ofExtent(a);
 	sum.force += force;
-	if (sum.sizes) *sum.sizes += force.cwiseAbs();
+	if (sum.absoluteContributions) *sum.absoluteContributions += force.cwiseAbs();
 	const double slope = ofEnd / (scheme.beta * motion_.duration * motion_.duration);
 	if (sum.K) mass_.addTo(*sum.K, slope);
 	if (sum.K && extent_) extent_->addTo(*sum.K, slope);
@@ -252,15 +252,15 @@ template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) co
 	return std::sqrt(squares);
 }
 
-template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const
+template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& absoluteContributions) const
 {
 	constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const double     T        = motion_.duration;
 	const double     factor   = roundOff / (motion_.scheme.beta * T * T);
 	const auto       moved    = (d.cwiseAbs() + T * velocity_.cwiseAbs()).eval();
-	sizes += factor * mass_.sizesTimes(moved);
-	if (extent_) sizes += factor * extent_->sizesTimes(moved);
-	basis_.ties.template fold<Dim>(sizes);
+	absoluteContributions += factor * mass_.absoluteTimes(moved);
+	if (extent_) absoluteContributions += factor * extent_->absoluteTimes(moved);
+	basis_.ties.template fold<Dim>(absoluteContributions);
 }
 
 /// Bodies that meet might move far into each other by themselves, and what touches as the step begins would not be what

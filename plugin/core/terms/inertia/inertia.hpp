@@ -35,7 +35,7 @@ public:
 	Eigen::VectorXd inertialPredictor() const;
 
 	/// Adds what round-off of d leaves of its force, which is more than round-off of strains does [N].
-	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const;
+	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& absoluteContributions) const;
 
 	/// Of forces that are out of balance with the accelerations of the points as the step begins, and of what the
 	/// scheme damps; negative: energy that nobody has put in [J].

@@ -121,7 +121,7 @@ template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::Vecto
 	return product(x, [](double m) { return m; });
 }
 
-template <int Dim> Eigen::VectorXd MassMatrix<Dim>::sizesTimes(const Eigen::VectorXd& x) const
+template <int Dim> Eigen::VectorXd MassMatrix<Dim>::absoluteTimes(const Eigen::VectorXd& x) const
 {
 	return product(x.cwiseAbs(), [](double m) { return std::abs(m); });
 }

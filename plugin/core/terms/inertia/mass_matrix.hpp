@@ -35,7 +35,7 @@ public:
 	void            mark(NodeMatrix<Dim>& K) const;
 	void            addTo(NodeMatrix<Dim>& K, double factor) const; ///< K += factor (M + M_g)
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;      ///< for nodal vectors of Dim components a node
-	Eigen::VectorXd sizesTimes(const Eigen::VectorXd& x) const;     ///< the same with the magnitudes of all numbers
+	Eigen::VectorXd absoluteTimes(const Eigen::VectorXd& x) const;  ///< the same with the magnitudes of all numbers
 
 	/// f(a, b, code, number) for b not before a.
 	template <class F> void forEntries(F&& f) const

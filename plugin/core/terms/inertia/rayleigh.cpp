@@ -36,7 +36,7 @@ template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, doub
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
 	C_.multiplyAdd(v, force);
 	sum.force += force;
-	if (sum.sizes) *sum.sizes += force.cwiseAbs();
+	if (sum.absoluteContributions) *sum.absoluteContributions += force.cwiseAbs();
 	if (!sum.K) return;
 	for (int a = 0; a < C_.nodes(); ++a)
 		for (int code = 0; code < NodeMatrix<Dim>::codes; ++code)

@@ -57,10 +57,11 @@ template <int Dim> using Colours = decltype(CloudBasis<Dim>::colours);
 
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
-/// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes +=
-/// the magnitudes of the patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points
-/// with det F <= 0 or without an answer of their law. The result does not depend on the number of threads. `part`: of
-/// the step's time has gone by; 0 with d = 0 is the force of the stresses with which the step begins.
+/// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and absolute
+/// contributions += the magnitudes of the patches' forces, as far as they are asked for; of the patches in `colours`.
+/// Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of
+/// threads. `part`: of the step's time has gone by; 0 with d = 0 is the force of the stresses with which the step
+/// begins.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,

@@ -182,7 +182,7 @@ GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const ChunkOfPoints& chunk, co
 				force.row[0][r] += Lanes(chunk.meanStressAt(p)) * loadLanes(chunk.centreAt(p, Dim) + r * Nodes::inRow);
 		}
 	force.scatterAdd(patch, pass.sum.force);
-	if (pass.sum.sizes) force.scatterAddSizes(patch, *pass.sum.sizes);
+	if (pass.sum.absoluteContributions) force.scatterAddAbsolute(patch, *pass.sum.absoluteContributions);
 	if (!pass.sum.K) return;
 	const auto addStiffness = [&](auto isSymmetric) GIMPM_INLINE_LAMBDA {
 		PatchStiffness<ChunkOfPoints, Nodes::N, decltype(isSymmetric)::value> stiffness;

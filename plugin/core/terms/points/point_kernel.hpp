@@ -70,7 +70,7 @@ template <int Dim, int Span> struct PatchVectors {
 				if (patch.node[n] >= 0) x[Dim * patch.node[n] + i] += row[i][n / Nodes::inRow][n % Nodes::inRow];
 	}
 	/// Magnitudes, whatever the signs.
-	void scatterAddSizes(const Patch<Dim>& patch, Eigen::VectorXd& x) const
+	void scatterAddAbsolute(const Patch<Dim>& patch, Eigen::VectorXd& x) const
 	{
 		for (int n = 0; n < Nodes::N; ++n)
 			for (int i = 0; i < Dim; ++i)

@@ -213,7 +213,7 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 {
 	const auto add = [&](int row, int column, int code, double k) {
 		sum.force[field][row] += k * growth[column];
-		sum.sizes[field][row] += std::abs(k * growth[column]);
+		sum.absoluteContributions[field][row] += std::abs(k * growth[column]);
 		if (!blocks) return;
 		if (double* to = blocks->pp.at(row, code)) *to += k;
 	};
@@ -229,7 +229,7 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 }
 
 /// What large pressures of little slope leave, and what is left of volumes.
-template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& sizes) const
+template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& absoluteContributions) const
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const Eigen::VectorXd P        = state.value(field);
@@ -246,12 +246,13 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 				}
 				for (int n = 0; n < f.count; ++n)
 					if (patch->node[n] >= 0)
-						sizes[field][patch->node[n]] += roundOff * (flow * slope * steepness[n] + point.volume * f.value[n]);
+						absoluteContributions[field][patch->node[n]]
+						        += roundOff * (flow * slope * steepness[n] + point.volume * f.value[n]);
 			}
 	});
 	for (const Outlet& outlet : outlets_)
 		for (int n = 0; n < outlet.at.nodes; ++n)
-			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
+			absoluteContributions[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
 }
 
 template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
@@ -282,9 +283,9 @@ template <int Dim> double Flow<Dim>::workOn(const State& end) const
 {
 	const std::vector<Eigen::VectorXd> before { Eigen::VectorXd::Zero(end.displacements().size()), end.before(field) };
 	const State                        start(end.map(), before, Eigen::VectorXd::Zero(end.map().size()));
-	auto                               twice = end.map().zeros(), sizes = twice;
+	auto                               twice = end.map().zeros(), absoluteContributions = twice;
 	for (const State* state : { &start, &end })
-		addCoupled(*state, { twice, sizes });
+		addCoupled(*state, { twice, absoluteContributions });
 	share_.complete(twice[0]);
 	return -twice[0].dot(end.displacements()) / 2;
 }

@@ -42,7 +42,7 @@ public:
 	void                        mark(NodeMatrix<Dim>&) const override;
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
-	void                        addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& sizes) const override;
+	void                        addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& absoluteContributions) const override;
 	std::optional<FieldGrowth>  expected() const override;
 	std::vector<LocalError>     fieldErrors(const State&) const override;
 	void                        commitCoupled(const State&) override;

@@ -120,7 +120,7 @@ template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const Fie
 		             size = isFlux ? std::abs(o.given) : conductance * (std::abs(pressure) + std::abs(o.given));
 		for (int m = 0; m < o.at.nodes; ++m) {
 			sum.force[field][o.at.node[m]] += o.at.weight[m] * out;
-			sum.sizes[field][o.at.node[m]] += std::abs(o.at.weight[m]) * size;
+			sum.absoluteContributions[field][o.at.node[m]] += std::abs(o.at.weight[m]) * size;
 			for (int n = 0; n < o.at.nodes && sum.couplings; ++n)
 				sum.couplings->add({ field, o.at.node[m] }, { field, o.at.node[n] }, conductance * o.at.weight[m] * o.at.weight[n]);
 		}

@@ -103,7 +103,7 @@ public:
 	void begin(const std::array<int, N>& node)
 	{
 		node_ = node;
-		clear(force_), clear(sizes_);
+		clear(force_), clear(absoluteContributions_);
 		if (!blocks_) return;
 		clear(turn_), clear(up_), clear(pp_);
 		if (isAxisymmetric_) clear(ring_);
@@ -125,8 +125,9 @@ public:
 		for (int n = 0; n < N; ++n) {
 			if (node_[n] < 0) continue;
 			for (int i = 0; i < Dim; ++i)
-				sum_.force[0][Dim * node_[n] + i] += force_[i][n], sum_.sizes[0][Dim * node_[n] + i] += sizes_[i][n];
-			sum_.force[field][node_[n]] += force_[Dim][n], sum_.sizes[field][node_[n]] += sizes_[Dim][n];
+				sum_.force[0][Dim * node_[n] + i] += force_[i][n],
+				        sum_.absoluteContributions[0][Dim * node_[n] + i] += absoluteContributions_[i][n];
+			sum_.force[field][node_[n]] += force_[Dim][n], sum_.absoluteContributions[field][node_[n]] += absoluteContributions_[Dim][n];
 		}
 		if (!blocks_) return;
 		const auto& code = Window<Dim>::get().code;
@@ -168,10 +169,10 @@ private:
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
 				const double push = -point.coupling() * V * s.pressure * at_.dilation[i][a];
-				force_[i][a] += push, sizes_[i][a] += std::abs(push);
+				force_[i][a] += push, absoluteContributions_[i][a] += std::abs(push);
 			}
 			const double passes = flow * at_.along[a], ofStored = stored * at_.value[a];
-			force_[Dim][a] += passes + ofStored, sizes_[Dim][a] += std::abs(passes) + std::abs(ofStored);
+			force_[Dim][a] += passes + ofStored, absoluteContributions_[Dim][a] += std::abs(passes) + std::abs(ofStored);
 		}
 	}
 	static void addTimes(Row& to, double factor, const Row& row)
@@ -255,7 +256,7 @@ private:
 	const bool             isSymmetric_, isAxisymmetric_;
 	const double           duration_, modulus_;
 	std::array<int, N>     node_;
-	Row                    force_[Dim + 1], sizes_[Dim + 1];                  // the last one: of the pressure
+	Row                    force_[Dim + 1], absoluteContributions_[Dim + 1];  // the last one: of the pressure
 	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N]; // by rows
 	Row                    pu_[Dim][N];                                       // where the matrix is not symmetric
 	Functions              at_;                                               // of the point at hand, zero at other nodes

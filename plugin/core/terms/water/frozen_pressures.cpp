@@ -8,7 +8,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 {
 	auto pressures = ofOwnPoints;
 	step.division.extend(pressures);
-	force_ = sizes_ = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
+	force_ = absoluteContributions_ = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
 	for (const auto& patch : step.basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const PointFunctions<Dim> f(step.basis, i, patch);
@@ -19,7 +19,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 				Vec<Dim> push = -pushing * f.gradient[n];
 				push[0] -= pushing * f.hoop[n];
 				force_.template segment<Dim>(Dim * patch.node[n]) += push;
-				sizes_.template segment<Dim>(Dim * patch.node[n]) += push.cwiseAbs();
+				absoluteContributions_.template segment<Dim>(Dim * patch.node[n]) += push.cwiseAbs();
 			}
 		}
 }
@@ -27,7 +27,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 template <int Dim> std::optional<PointFailure> FrozenPressures<Dim>::add(const Eigen::VectorXd&, const AssembledTerms<Dim>& sum) const
 {
 	sum.force += force_;
-	if (sum.sizes) *sum.sizes += sizes_;
+	if (sum.absoluteContributions) *sum.absoluteContributions += absoluteContributions_;
 	return std::nullopt;
 }
 

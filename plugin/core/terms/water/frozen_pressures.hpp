@@ -15,7 +15,7 @@ public:
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
 
 private:
-	Eigen::VectorXd force_, sizes_;
+	Eigen::VectorXd force_, absoluteContributions_;
 };
 
 } // namespace gimpm

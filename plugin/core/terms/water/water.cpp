@@ -127,7 +127,7 @@ template <int Dim> void addTo(const AssembledTerms<Dim>& sum, const WetPoint<Dim
 		if (!at.isThere(n)) continue;
 		const Vec<Dim> f = factor * wet.force(n);
 		sum.force.template segment<Dim>(Dim * at.patch.node[n]) += f;
-		if (sum.sizes) sum.sizes->template segment<Dim>(Dim * at.patch.node[n]) += f.cwiseAbs();
+		if (sum.absoluteContributions) sum.absoluteContributions->template segment<Dim>(Dim * at.patch.node[n]) += f.cwiseAbs();
 		for (int m = 0; m < at.count && sum.K && wet.isStiff(); ++m)
 			if (at.isThere(m)) sum.K->add(at.patch.node[n], at.patch.node[m], at.code[m] - at.code[n], factor * wet.stiffness(n, m));
 	}
