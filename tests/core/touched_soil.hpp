@@ -43,15 +43,15 @@ template <int Dim> struct TouchedSoil {
 	RigidBody<Dim>& add(RigidKind kind, const Vec<Dim>& position, double friction = 0)
 	{
 		RigidBody<Dim> body;
-		body.shape.kind     = kind;
-		body.shape.radius   = kind == RigidKind::ball ? 1 : 0.05;
-		body.shape.halfSize = Vec<Dim>::Constant(1);
-		body.shape.normal   = -Vec<Dim>::Unit(1);
-		body.shape.corners  = wideSheet();
-		body.name           = "body #" + std::to_string(contacts.bodies.size());
-		body.owner          = int(contacts.bodies.size());
-		body.friction       = friction;
-		body.stiffness      = 100;
+		body.shape.kind          = kind;
+		body.shape.radius        = kind == RigidKind::ball ? 1 : 0.05;
+		body.shape.halfSize      = Vec<Dim>::Constant(1);
+		body.shape.normal        = -Vec<Dim>::Unit(1);
+		body.shape.corners       = wideSheet();
+		body.name                = "body #" + std::to_string(contacts.bodies.size());
+		body.owner               = int(contacts.bodies.size());
+		body.frictionCoefficient = friction;
+		body.stiffness           = 100;
 		body.begin.position = body.end.position = position;
 		contacts.bodies.push_back(body);
 		contacts.owners.push_back(position);

@@ -6,10 +6,10 @@
 
 namespace gimpm {
 
-/// Yield function sqrt(J2) + friction p - strength, plastic potential sqrt(J2) + dilation p, with the mean stress p;
-/// three ways to match Mohr and Coulomb's law.
+/// Yield function sqrt(J2) + frictionCoefficient p - strength, plastic potential sqrt(J2) + dilation p, with the mean
+/// stress p; three ways to match Mohr and Coulomb's law.
 struct DruckerPragerCone {
-	double friction, dilation, strength; ///< [-], [-], [Pa]
+	double frictionCoefficient, dilation, strength; ///< [-], [-], [Pa]
 
 	using Match = DruckerPragerCone (*)(double cohesion, double frictionAngle, double dilationAngle);
 	Match  match;                                  ///< the one that made it
@@ -62,10 +62,10 @@ public:
 	DruckerPrager(double young, double poisson, const DruckerPragerCone& cone, double tensileStrength = std::numeric_limits<double>::infinity())
 	        : elastic_(young, poisson), cone_(cone), tension_(tensileStrength)
 	{
-		const double apex = cone.friction > 0 ? cone.strength / cone.friction : std::numeric_limits<double>::infinity();
+		const double apex = cone.frictionCoefficient > 0 ? cone.strength / cone.frictionCoefficient : std::numeric_limits<double>::infinity();
 		mostMean_         = std::min(apex, tensileStrength);
-		radius_           = tensileStrength < apex ? cone.strength - cone.friction * tensileStrength : 0;
-		inverse_          = 1 / (elastic_.shear() + elastic_.bulk() * cone.friction * cone.dilation);
+		radius_           = tensileStrength < apex ? cone.strength - cone.frictionCoefficient * tensileStrength : 0;
+		inverse_          = 1 / (elastic_.shear() + elastic_.bulk() * cone.frictionCoefficient * cone.dilation);
 	}
 
 	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
@@ -80,7 +80,7 @@ public:
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 
-	bool isSymmetric() const { return cone_.dilation == cone_.friction; }
+	bool isSymmetric() const { return cone_.dilation == cone_.frictionCoefficient; }
 
 	double young(const std::array<double, 1>&) const { return elastic_.young(); }
 
@@ -134,7 +134,7 @@ private:
 	template <class T> GIMPM_INLINE Return<T> returned(const T& mean, const T& root) const
 	{
 		const T    G(elastic_.shear()), most(mostMean_), radius(radius_);
-		const T    over = root + T(cone_.friction) * mean - T(cone_.strength), multiplier = select(over > T(0), over * T(inverse_), T(0));
+		const T    over = root + T(cone_.frictionCoefficient) * mean - T(cone_.strength), multiplier = select(over > T(0), over * T(inverse_), T(0));
 		const T    onCone = mean - T(elastic_.bulk() * cone_.dilation) * multiplier, some = select(root > T(0), root, T(1));
 		const auto isAbove = onCone > most;
 		const T    left    = select(isAbove, select(root > radius, radius, root), root - G * multiplier);
@@ -155,11 +155,11 @@ private:
 		const auto     yields = select(r.isCut, zero, select(r.yields, T(1), zero)) > zero;
 		const T        theta = select(r.yields | r.isCut, r.theta, T(1)), least = select(theta > floor, theta, floor);
 		TangentForm<T> form;
-		form.bulk  = select(r.isCut, floor * T(K), select(yields, T(K * (1 - K * cone_.friction * cone_.dilation * inverse_)), T(K)));
+		form.bulk  = select(r.isCut, floor * T(K), select(yields, T(K * (1 - K * cone_.frictionCoefficient * cone_.dilation * inverse_)), T(K)));
 		form.shear = T(G) * least;
 		form.radial
 		        = select(r.isCut, select(r.isCorner, T(2 * G) * (floor - least), zero), select(yields, T(2 * G) * (T(1 - G * inverse_) - theta), zero));
-		form.pressing = select(yields, T(-coupling * cone_.friction), zero);
+		form.pressing = select(yields, T(-coupling * cone_.frictionCoefficient), zero);
 		form.dilating = select(yields, T(-coupling * cone_.dilation), zero);
 		return form;
 	}

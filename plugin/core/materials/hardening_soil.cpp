@@ -77,9 +77,9 @@ struct HardeningSoil::Slopes {
 
 HardeningSoil::HardeningSoil(const Given& g)
         : given_(g)
-        , sine_(std::sin(g.friction))
+        , sine_(std::sin(g.frictionAngle))
         , slope_(2 * sine_ / (1 - sine_))
-        , shift_(g.cohesion / std::tan(g.friction))
+        , shift_(g.cohesion / std::tan(g.frictionAngle))
         , unit_(g.reference + shift_)
         , initialModulus_(2 * g.secant / (2 - g.failureRatio))
         , bulk_(g.unloading / (3 * (1 - 2 * g.poisson)))
@@ -120,7 +120,7 @@ double HardeningSoil::largestOedometric(const Given& given)
 
 double HardeningSoil::leastRestRatio(const Given& g)
 {
-	const double sine = std::sin(g.friction), active = (1 - sine) / (1 + sine);
+	const double sine = std::sin(g.frictionAngle), active = (1 - sine) / (1 + sine);
 	return active - 2 * g.cohesion * std::sqrt(active) / g.reference;
 }
 
@@ -133,13 +133,13 @@ TensorState HardeningSoil::initialInternals() const
 
 HardeningSoil::Parameters HardeningSoil::parameters() const
 {
-	return { given_.secant, given_.oedometric, given_.unloading, given_.cohesion, given_.friction, given_.dilation };
+	return { given_.secant, given_.oedometric, given_.unloading, given_.cohesion, given_.frictionAngle, given_.dilationAngle };
 }
 
 HardeningSoil HardeningSoil::with(const Parameters& p) const
 {
 	Given given  = given_;
-	given.secant = p[0], given.oedometric = p[1], given.unloading = p[2], given.cohesion = p[3], given.friction = p[4], given.dilation = p[5];
+	given.secant = p[0], given.oedometric = p[1], given.unloading = p[2], given.cohesion = p[3], given.frictionAngle = p[4], given.dilationAngle = p[5];
 	return HardeningSoil(given);
 }
 
@@ -161,7 +161,7 @@ double HardeningSoil::mobilisedAt(double hardening, double smallest) const
 /// Sine of the dilation angle (Rowe 1962), not below 0: contraction is the cap's.
 double HardeningSoil::dilatancy(double mobilised) const
 {
-	const double most = std::sin(given_.dilation), critical = (sine_ - most) / (1 - sine_ * most);
+	const double most = std::sin(given_.dilationAngle), critical = (sine_ - most) / (1 - sine_ * most);
 	return std::clamp((mobilised - critical) / (1 - mobilised * critical), 0., most);
 }
 

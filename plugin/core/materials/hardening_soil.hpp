@@ -19,7 +19,7 @@ public:
 	struct Given {
 		double secant, oedometric, unloading, poisson; ///< E50, Eoed, Eur, nu of unloading
 		double power, failureRatio, restRatio;         ///< m from 0 to 1, Rf from 0 to below 1, K0 of first loading
-		double reference, cohesion, friction, dilation;
+		double reference, cohesion, frictionAngle, dilationAngle;
 		double mostDilation; ///< extension of volume, as a logarithmic strain, from which on the soil does not dilate
 	};
 	explicit HardeningSoil(const Given&);

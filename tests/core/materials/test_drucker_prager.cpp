@@ -14,7 +14,7 @@ namespace {
 	{
 		const Cone own = Cone::planeStrain(c, friction * degree, friction * degree), flow = Cone::planeStrain(c, dilation * degree, dilation * degree);
 		Cone       cone {};
-		cone.friction = own.friction, cone.dilation = flow.dilation, cone.strength = own.strength;
+		cone.frictionCoefficient = own.frictionCoefficient, cone.dilation = flow.dilation, cone.strength = own.strength;
 		return cone;
 	}
 
@@ -23,7 +23,7 @@ namespace {
 		double tension;
 
 		DruckerPrager law() const { return { E, nu, cone, tension }; }
-		double        mostMean() const { return std::min(tension, cone.friction > 0 ? cone.strength / cone.friction : infinity); }
+		double        mostMean() const { return std::min(tension, cone.frictionCoefficient > 0 ? cone.strength / cone.frictionCoefficient : infinity); }
 	};
 	const Parameters all[] = { { Cone::planeStrain(c, 30 * degree, 30 * degree), infinity },
 		                   { Cone::planeStrain(c, 30 * degree, 0), infinity },
@@ -44,12 +44,12 @@ namespace {
 	TEST(DruckerPrager, ConstantsByFormula)
 	{
 		const double s = 0.5, t = std::tan(30 * degree);
-		EXPECT_NEAR(Cone::compression(c, 30 * degree, 0).friction, 6 * s / (std::sqrt(3.) * (3 - s)), 1e-15);
+		EXPECT_NEAR(Cone::compression(c, 30 * degree, 0).frictionCoefficient, 6 * s / (std::sqrt(3.) * (3 - s)), 1e-15);
 		EXPECT_NEAR(Cone::compression(c, 30 * degree, 0).strength, 6 * std::cos(30 * degree) * c / (std::sqrt(3.) * (3 - s)), 1e-11);
 		EXPECT_NEAR(Cone::extension(c, 30 * degree, 30 * degree).dilation, 6 * s / (std::sqrt(3.) * (3 + s)), 1e-15);
-		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 30 * degree).friction, 3 * t / std::sqrt(9 + 12 * t * t), 1e-15);
+		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 30 * degree).frictionCoefficient, 3 * t / std::sqrt(9 + 12 * t * t), 1e-15);
 		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 30 * degree).strength, 3 * c / std::sqrt(9 + 12 * t * t), 1e-11);
-		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 0).friction, s, 1e-15);
+		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 0).frictionCoefficient, s, 1e-15);
 		EXPECT_NEAR(Cone::planeStrain(c, 30 * degree, 0).strength, c * std::cos(30 * degree), 1e-11);
 	}
 
@@ -87,8 +87,9 @@ namespace {
 	TEST(DruckerPrager, MatchesTheEdgesOfThePyramid)
 	{
 		const double k = 3, s = 2 * c * std::sqrt(3.);
-		const auto   over
-		        = [&](const Cone& cone, const Vec3& t) { return deviator(t).norm() / std::sqrt(2.) + cone.friction * t.mean() - cone.strength; };
+		const auto   over = [&](const Cone& cone, const Vec3& t) {
+                        return deviator(t).norm() / std::sqrt(2.) + cone.frictionCoefficient * t.mean() - cone.strength;
+		};
 		const Vec3 compressed(-20e3, -20e3, -20e3 * k - s), extended(-20e3, -20e3 * k - s, -20e3 * k - s);
 		EXPECT_NEAR(over(Cone::compression(c, 30 * degree, 0), compressed), 0, 1e-9);
 		EXPECT_NEAR(over(Cone::extension(c, 30 * degree, 0), extended), 0, 1e-9);
@@ -100,7 +101,9 @@ namespace {
 			for (const Vec3& e : soilStrains(1000)) {
 				const auto   r    = p.law().respond(e, { 0.1 });
 				const double size = E * e.norm();
-				EXPECT_LT(deviator(r.stress).norm() / std::sqrt(2.) + p.cone.friction * r.stress.mean() - p.cone.strength, 2e-13 * size);
+				EXPECT_LT(
+				        deviator(r.stress).norm() / std::sqrt(2.) + p.cone.frictionCoefficient * r.stress.mean() - p.cone.strength,
+				        2e-13 * size);
 				EXPECT_LE(r.stress.mean(), p.mostMean() * (1 + 1e-14) + 1e-13 * size);
 				expectConsistent(p.law(), Hencky(E, nu), e, r);
 				EXPECT_NEAR(r.internals[0], 0.1 + std::sqrt(2. / 3) * deviator(e - r.elasticStrain).norm(), 1e-8 * e.norm() + 1e-15);

@@ -19,7 +19,7 @@ namespace {
 	/// Deviator stress q at an axial strain in drained triaxial compression under the reference pressure.
 	double hyperbola(double strain, const Soil::Given& g)
 	{
-		const double sine = std::sin(g.friction), strength = 2 * sine / (1 - sine) * (g.reference + g.cohesion / std::tan(g.friction));
+		const double sine = std::sin(g.frictionAngle), strength = 2 * sine / (1 - sine) * (g.reference + g.cohesion / std::tan(g.frictionAngle));
 		const double initial = 2 * g.secant / (2 - g.failureRatio), q = strain * initial / (1 + strain * initial * g.failureRatio / strength);
 		return std::min(q, strength);
 	}
@@ -181,7 +181,7 @@ namespace {
 			const auto    given = randomSoil(random, k);
 			Element<Soil> soil { Soil(given) };
 			soil.press(Vec3::Constant(random.in(1e3, 200e3)));
-			const double sine = std::sin(given.friction), shift = given.cohesion / std::tan(given.friction);
+			const double sine = std::sin(given.frictionAngle), shift = given.cohesion / std::tan(given.frictionAngle);
 			for (int i = 0; i < 60; ++i) {
 				soil.apply(randomStrain(random, std::pow(10, random.in(-6, -2))));
 				const Vec3   t        = principal(SymTensor<3>::from(soil.stress)).value;

@@ -50,9 +50,9 @@ namespace {
 				        [this](const StepContext<Dim>& step) { return std::make_unique<WaterForce<Dim>>(outside, step); },
 				        [this](const StepContext<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
 			RigidBody<Dim> plate;
-			plate.shape.kind   = RigidKind::plane;
-			plate.shape.normal = Vec<Dim>::Unit(1);
-			plate.friction = 0.3, plate.stiffness = 100;
+			plate.shape.kind          = RigidKind::plane;
+			plate.shape.normal        = Vec<Dim>::Unit(1);
+			plate.frictionCoefficient = 0.3, plate.stiffness = 100;
 			plate.end.position[1] = 0.02;
 			contacts.bodies.push_back(plate);
 			contacts.owners.push_back(plate.end.position);

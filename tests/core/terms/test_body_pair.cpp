@@ -88,11 +88,11 @@ namespace {
 			x[0] += (gap - Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
 			for (const double kept : { .2, 1. }) {
 				const double closed = gap + kept / 7;
-				EXPECT_NEAR(this->at(x, 0, 1e9, closed).pressure, kept, 1e-14) << "as the step began";
+				EXPECT_NEAR(this->at(x, 0, 1e9, closed).normalForce, kept, 1e-14) << "as the step began";
 				const auto   f   = this->at(x, .1, 1e9, closed);
 				const double cap = .1 * kept;
-				EXPECT_NEAR(f.shear.norm(), f.slips ? cap : f.shear.norm(), 1e-14);
-				EXPECT_LE(f.shear.norm(), cap * (1 + 1e-12)) << "the limit of friction is that of the kept pressure";
+				EXPECT_NEAR(f.tangentialForce.norm(), f.slips ? cap : f.tangentialForce.norm(), 1e-14);
+				EXPECT_LE(f.tangentialForce.norm(), cap * (1 + 1e-12)) << "the limit of friction is that of the kept pressure";
 				auto apart = x;
 				apart[0] += (closed - gap + 1e-3) * Facing<Dim>(x).normal;
 				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, PairSlope::exact))

@@ -331,7 +331,7 @@ namespace {
 		const ContactLoad& load  = block.contacts.loads[0];
 		Vec3               force = Vec3::Zero(), reactions = Vec3::Zero();
 		for (const auto& record : block.contacts.records)
-			force += record.pressure * record.normal + record.friction;
+			force += record.normalForce * record.normal + record.tangentialForce;
 		for (const Vec3& r : block.report.reactions)
 			reactions += r;
 		EXPECT_LT((force + load.force).norm(), 1e-12 * force.norm());

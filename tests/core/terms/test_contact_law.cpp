@@ -79,9 +79,9 @@ namespace {
 		const Vec<Dim> from    = body.before(x) + 0.003 * Vec<Dim>::LinSpaced(1, 2);
 		const auto     touched = touchAt(body, law, from, x);
 		EXPECT_TRUE(touched);
-		EXPECT_NEAR(touched->pressure, 1, 1e-10);
-		EXPECT_LE(touched->friction.norm(), std::min(friction, cap) + 1e-12);
-		EXPECT_NEAR(touched->friction.dot(touched->normal), 0, 1e-12);
+		EXPECT_NEAR(touched->normalForce, 1, 1e-10);
+		EXPECT_LE(touched->tangentialForce.norm(), std::min(friction, cap) + 1e-12);
+		EXPECT_NEAR(touched->tangentialForce.dot(touched->normal), 0, 1e-12);
 		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
 		EXPECT_LT((slope - touched->slope).norm(), 1e-7 * slope.norm());
 		return touched->slips;
@@ -109,10 +109,10 @@ namespace {
 		const ContactLaw<Dim> law { 100, 50, 0.5, 2, 3, 0.02 }, capped { 100, 50, 0.5, 0.2, 3, 0.02 }, near { 100, 50, 0.5, 2, 3, 0.005 };
 		const auto            rubs = touchAt(body, law, from, x), rubsLess = touchAt(body, capped, from, x);
 		ASSERT_TRUE(rubs && rubsLess);
-		EXPECT_EQ(rubs->pressure, 0);
+		EXPECT_EQ(rubs->normalForce, 0);
 		EXPECT_TRUE(rubs->slips);
-		EXPECT_NEAR(rubs->friction.norm(), 1.5, 1e-12);
-		EXPECT_NEAR(rubsLess->friction.norm(), 0.2, 1e-12);
+		EXPECT_NEAR(rubs->tangentialForce.norm(), 1.5, 1e-12);
+		EXPECT_NEAR(rubsLess->tangentialForce.norm(), 0.2, 1e-12);
 		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
 		EXPECT_LT((slope - rubs->slope).norm(), 1e-7 * slope.norm());
 		EXPECT_FALSE(touchAt(body, near, from, x));

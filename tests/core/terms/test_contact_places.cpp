@@ -45,7 +45,7 @@ namespace {
 		{
 			double sum = 0;
 			for (const auto& r : contacts.records)
-				if (r.pressure > 0) sum += r.pressure / -r.gap * h / (contacts.bodies[r.body].stiffness * young);
+				if (r.normalForce > 0) sum += r.normalForce / -r.gap * h / (contacts.bodies[r.body].stiffness * young);
 			return sum;
 		}
 		Vec3 force() const
@@ -206,10 +206,10 @@ namespace {
 		const Mat<Dim> R   = turn<Dim>(0.3);
 		for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::sheet }) {
 			Scene<Dim>     scene;
-			const Vec<Dim> place  = Vec<Dim>::Constant(0.7) + 1.8 * Vec<Dim>::Unit(1);
-			auto&          body   = kind == RigidKind::sheet ? scene.addSheet(1.5, true) : scene.add(kind, place);
-			body.friction         = 0.5;
-			scene.contacts.energy = 0; // gaps stay as they are
+			const Vec<Dim> place     = Vec<Dim>::Constant(0.7) + 1.8 * Vec<Dim>::Unit(1);
+			auto&          body      = kind == RigidKind::sheet ? scene.addSheet(1.5, true) : scene.add(kind, place);
+			body.frictionCoefficient = 0.5;
+			scene.contacts.energy    = 0; // gaps stay as they are
 			scene.go([&](const Vec<Dim>& x) { return Vec<Dim>(0.002 * Vec<Dim>::LinSpaced(1, 2) + 0.04 * Vec<Dim>::Unit(1) - 0.01 * x); });
 			const auto remembered = scene.contacts.records;
 			scene.go([](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Zero()); });
@@ -226,9 +226,9 @@ namespace {
 				ASSERT_NE(r, scene.contacts.records.end());
 				EXPECT_NEAR(r->gap, s.gap, 1e-13);
 				EXPECT_EQ(r->touches, s.touches);
-				EXPECT_NEAR(r->pressure, s.pressure, 1e-10 * force.norm());
-				EXPECT_LT((r->friction - R * s.friction).norm(), 1e-10 * force.norm());
-				(s.slips ? slip : stick) += s.touches && s.friction.norm() > 0;
+				EXPECT_NEAR(r->normalForce, s.normalForce, 1e-10 * force.norm());
+				EXPECT_LT((r->tangentialForce - R * s.tangentialForce).norm(), 1e-10 * force.norm());
+				(s.slips ? slip : stick) += s.touches && s.tangentialForce.norm() > 0;
 			}
 			EXPECT_GT(slip + stick, 0);
 			EXPECT_GT(force.norm(), 1e3);

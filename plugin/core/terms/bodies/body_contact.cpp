@@ -95,9 +95,9 @@ auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std
 		if (!nearest) continue;
 		if (!near || !goesOn(end)) near = nearest, end = pairNow(place, *near, d, looked_.now);
 		const double          penalty = penaltyOf(place);
-		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
+		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_);
-		const auto            force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope);
+		const auto            force = pairForce<Dim>(law, start, place.tangentialForce, end, place.closed, tolerance_, slope);
 		if (!force) continue;
 		looked_.touching.push_back({ place, *near, *force, end });
 		if (f) f(looked_.touching.back(), force->slope);
@@ -132,7 +132,7 @@ template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near
 /// Without friction the derivatives are symmetric as they are.
 template <int Dim> bool BodyContact<Dim>::isRough() const
 {
-	return std::any_of(system_.meetings.begin(), system_.meetings.end(), [](const auto& m) { return m.friction > 0 && m.adhesion > 0; });
+	return std::any_of(system_.meetings.begin(), system_.meetings.end(), [](const auto& m) { return m.frictionCoefficient > 0 && m.adhesion > 0; });
 }
 
 template <int Dim> bool BodyContact<Dim>::makeExact() { return isRough() && !std::exchange(isExact_, true); }
@@ -256,7 +256,7 @@ template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hol
 {
 	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
 		const auto& meeting = meetingOf(touching.place);
-		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0, hold);
+		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, hold);
 	}
 }
 
@@ -264,7 +264,7 @@ template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, c
 {
 	for (const Touching& touching : look(d).touching) {
 		const auto& meeting = meetingOf(touching.place);
-		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
+		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
 	}
 }
 

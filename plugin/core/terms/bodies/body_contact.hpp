@@ -42,9 +42,9 @@ template <int Dim> struct MeetingBody {
 /// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
 template <int Dim> struct BodyMeeting {
 	int    slave = 0, master = 0;
-	double friction  = 0;                                       ///< coefficient [-]
-	double adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
-	double stiffness = 10;
+	double frictionCoefficient = 0;                                       ///< [-]
+	double adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double stiffness           = 10;
 
 	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
@@ -111,10 +111,10 @@ private:
 		int               meeting, piece; ///< of its facets
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
-		double            young    = 0;
-		double            pressure = 0;                ///< as the step begins [N]
-		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
-		double            closed   = 0;                ///< gap at which it begins to be pressed [m]
+		double            young           = 0;
+		double            normalForce     = 0;                ///< as the step begins [N]
+		Vec<Dim>          tangentialForce = Vec<Dim>::Zero(); ///< the same
+		double            closed          = 0;                ///< gap at which it begins to be pressed [m]
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
 		const Near*       first = nullptr; ///< the nearest as the step begins

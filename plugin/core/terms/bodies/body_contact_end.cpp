@@ -30,14 +30,14 @@ template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 /// stays before one plane that does not turn.
 template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) const
 {
-	const auto stored = [this](const Place& place, double pressure, const Vec<Dim>& shear) {
-		return (pressure * pressure + slipSoftnessOfBodies * shear.squaredNorm()) / (2 * penaltyOf(place));
+	const auto stored = [this](const Place& place, double normalForce, const Vec<Dim>& tangentialForce) {
+		return (normalForce * normalForce + slipSoftnessOfBodies * tangentialForce.squaredNorm()) / (2 * penaltyOf(place));
 	};
 	double sum = work(d);
 	for (const Place& place : places_)
-		if (place.first) sum -= stored(place, place.pressure, place.shear);
+		if (place.first) sum -= stored(place, place.normalForce, place.tangentialForce);
 	for (const Touching& now : look(d).touching)
-		sum += stored(now.place, now.force.pressure, now.force.shear);
+		sum += stored(now.place, now.force.normalForce, now.force.tangentialForce);
 	return sum;
 }
 
@@ -112,8 +112,8 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 	for (const auto& [place, near, force, at] : looked.touching) {
 		auto&     meeting = system_.meetings[place.meeting];
 		const int whole   = facets_[meeting.slave].whole[place.piece];
-		meeting.shear[whole] += force.shear / area[place.meeting][whole];
-		meeting.pressure[whole] += force.pressure / area[place.meeting][whole];
+		meeting.shear[whole] += force.tangentialForce / area[place.meeting][whole];
+		meeting.pressure[whole] += force.normalForce / area[place.meeting][whole];
 		meeting.force += force.force[0];
 		Vec3 arm = Vec3::Zero(), f = Vec3::Zero();
 		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];

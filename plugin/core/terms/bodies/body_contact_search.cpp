@@ -94,7 +94,7 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const StepContex
 			findNear(place, near, ofMaster);
 			if (place.near.empty()) continue;
 			if (!meeting.shear.empty())
-				place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
+				place.tangentialForce = area * meeting.shear[slave.whole[i]], place.normalForce = area * meeting.pressure[slave.whole[i]];
 			places_.push_back(std::move(place));
 		}
 	}
@@ -163,21 +163,21 @@ template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
 /// again in each step.
 template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
 {
-	double pressure = 0, gap = 0, penalty = 0;
+	double normalForce = 0, gap = 0, penalty = 0;
 	for (Place* place = begin; place != end; ++place) {
 		if (!place->first) return;
-		pressure += place->pressure, gap += penaltyOf(*place) * place->closed, penalty += penaltyOf(*place);
+		normalForce += place->normalForce, gap += penaltyOf(*place) * place->closed, penalty += penaltyOf(*place);
 	}
-	const double opens   = (gap + pressure) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
+	const double opens   = (gap + normalForce) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
 	const auto   isOpen  = [&](const Place& place) { return place.closed > opens; };
 	double       pressed = 0;
 	for (const Place* place = begin; place != end; ++place)
-		if (!isOpen(*place)) pressed += place->pressure;
-	if (pressed == 0 || pressed == pressure) return;
-	const double more = pressure / pressed;
+		if (!isOpen(*place)) pressed += place->normalForce;
+	if (pressed == 0 || pressed == normalForce) return;
+	const double more = normalForce / pressed;
 	for (Place* place = begin; place != end; ++place) {
 		const double part = isOpen(*place) ? 0 : more;
-		place->pressure *= part, place->shear *= part;
+		place->normalForce *= part, place->tangentialForce *= part;
 	}
 }
 
@@ -185,7 +185,7 @@ template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
 /// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
 template <int Dim> void BodyContact<Dim>::begin(Place& place)
 {
-	if (place.first) place.closed = place.pressure > 0 ? place.closed + place.pressure / penaltyOf(place) : std::min(0., place.closed);
+	if (place.first) place.closed = place.normalForce > 0 ? place.closed + place.normalForce / penaltyOf(place) : std::min(0., place.closed);
 }
 
 template BodyContact<2>::BodyContact(BodyContacts<2>&, const StepContext<2>&);

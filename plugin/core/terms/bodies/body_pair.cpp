@@ -88,29 +88,29 @@ template <int Dim> struct Slip {
 
 template <int Dim>
 Rubbing<Dim> rub(
-        const ContactLaw<Dim>& law, const Facing<Dim>& start, const Vec<Dim>& before, double pressure, const Facing<Dim>& at, const Slip<Dim>& slip,
+        const ContactLaw<Dim>& law, const Facing<Dim>& start, const Vec<Dim>& before, double normalForce, const Facing<Dim>& at, const Slip<Dim>& slip,
         const FacingSlope<Dim>* d, bool exactly)
 {
 	Rubbing<Dim> r;
-	if (law.friction == 0 || law.cap == 0) return r;
-	if (pressure == 0) {
-		if (d) r.slope = -law.tangential * slip.slope;
+	if (law.frictionCoefficient == 0 || law.cap == 0) return r;
+	if (normalForce == 0) {
+		if (d) r.slope = -law.tangentialStiffness * slip.slope;
 		return r;
 	}
-	Vec<Dim> trial = -law.tangential * slip.value;
-	if (d) r.slope = -law.tangential * slip.slope;
+	Vec<Dim> trial = -law.tangentialStiffness * slip.value;
+	if (d) r.slope = -law.tangentialStiffness * slip.slope;
 	for (int a = 0; a + 1 < Dim; ++a) {
 		const double kept = start.along[a].dot(before);
 		trial += kept * at.along[a];
 		if (d) r.slope += kept * d->along[a];
 	}
-	const double limit = std::min(law.friction * pressure, law.cap), size = trial.norm();
+	const double limit = std::min(law.frictionCoefficient * normalForce, law.cap), size = trial.norm();
 	r.slips = size > limit;
 	r.shear = r.slips ? Vec<Dim>(limit / size * trial) : trial;
 	if (!r.slips || !d) return r;
 	const Vec<Dim> way = trial / size;
 	r.slope            = (limit / size * (r.slope - way * (way.transpose() * r.slope))).eval();
-	if (exactly && law.friction * pressure < law.cap) r.slope -= law.friction * law.normal * way * d->gap;
+	if (exactly && law.frictionCoefficient * normalForce < law.cap) r.slope -= law.frictionCoefficient * law.normalStiffness * way * d->gap;
 	return r;
 }
 
@@ -158,20 +158,20 @@ std::optional<PairForce<Dim>> pairForce(
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
 	PairForce<Dim>    f;
-	f.pressure         = std::max(0., -law.normal * (at.gap - closed));
-	const auto rubbing = rub<Dim>(law, first, before, f.pressure, at, slip, d ? &*d : nullptr, asked == PairSlope::exact);
-	f.shear = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
-	const Vec<Dim> whole = f.pressure * at.normal + f.shear;
+	f.normalForce      = std::max(0., -law.normalStiffness * (at.gap - closed));
+	const auto rubbing = rub<Dim>(law, first, before, f.normalForce, at, slip, d ? &*d : nullptr, asked == PairSlope::exact);
+	f.tangentialForce = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
+	const Vec<Dim> whole = f.normalForce * at.normal + f.tangentialForce;
 	f.force[0]           = whole;
 	for (int i = 0; i < Dim; ++i)
-		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.shear.dot(at.slope[i]) * at.normal;
+		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.tangentialForce.dot(at.slope[i]) * at.normal;
 	if (!d) return f;
-	const typename FacingSlope<Dim>::Rows dWhole = -law.normal * at.normal * d->gap + f.pressure * d->normal + rubbing.slope;
+	const typename FacingSlope<Dim>::Rows dWhole = -law.normalStiffness * at.normal * d->gap + f.normalForce * d->normal + rubbing.slope;
 	f.slope.template topRows<Dim>()              = dWhole;
 	for (int i = 0; i < Dim; ++i) {
-		const double across                             = f.shear.dot(at.slope[i]);
+		const double across                             = f.tangentialForce.dot(at.slope[i]);
 		f.slope.template middleRows<Dim>(Dim * (i + 1)) = -at.weight[i] * dWhole - whole * d->weight[i]
-		        + at.normal * (across * d->gap + at.gap * (at.slope[i].transpose() * rubbing.slope + f.shear.transpose() * d->slope[i]))
+		        + at.normal * (across * d->gap + at.gap * (at.slope[i].transpose() * rubbing.slope + f.tangentialForce.transpose() * d->slope[i]))
 		        + at.gap * across * d->normal;
 	}
 	if (asked == PairSlope::symmetric) f.slope = ((f.slope + f.slope.transpose()) / 2).eval();

@@ -32,11 +32,11 @@ enum class PairSlope { none, symmetric, exact };
 /// What the place and the piece do to each other, whatever grids they move with. The forces have neither resultant nor
 /// moment.
 template <int Dim> struct PairAction {
-	std::array<Vec<Dim>, Dim + 1> force;                       ///< on the place and on the vertices [N]
-	double                        pressure = 0;                ///< normal force [N]
-	Vec<Dim>                      shear    = Vec<Dim>::Zero(); ///< frictional force on the place [N]
-	Vec<Dim>                      slip     = Vec<Dim>::Zero(); ///< of the place along the matter of the piece, since the start of the step [m]
-	bool                          slips    = false;
+	std::array<Vec<Dim>, Dim + 1> force;                              ///< on the place and on the vertices [N]
+	double                        normalForce     = 0;                ///< [N]
+	Vec<Dim>                      tangentialForce = Vec<Dim>::Zero(); ///< on the contact point [N]
+	Vec<Dim>                      slip            = Vec<Dim>::Zero(); ///< of the place along the matter of the piece, since the start of the step [m]
+	bool                          slips           = false;
 };
 
 /// The action with its derivative.
@@ -54,6 +54,6 @@ template <int Dim> struct PairForce : PairAction<Dim> {
 /// not pressed counts in the derivative as one that sticks: a body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance, PairSlope);
+        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance, PairSlope);
 
 } // namespace gimpm

@@ -24,9 +24,10 @@ constexpr double deepest = 0.1;
 constexpr double leastMotion = 0.05;
 
 /// In the springs of a place on gap and slip [J].
-template <int Dim> double stored(const ContactLaw<Dim>& law, double pressure, double friction)
+template <int Dim> double stored(const ContactLaw<Dim>& law, double normalForce, double tangentialForce)
 {
-	return law.normal > 0 ? (pressure * pressure / law.normal + friction * friction / law.tangential) / 2 : 0;
+	return law.normalStiffness > 0 ? (normalForce * normalForce / law.normalStiffness + tangentialForce * tangentialForce / law.tangentialStiffness) / 2
+	                               : 0;
 }
 
 /// A body keeps the places with which it has touched.
@@ -85,7 +86,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 	if (std::isfinite(system_.energy)) findLost();
 	spreadPressure();
 	for (const Place& place : places_)
-		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
+		isSymmetric_ = isSymmetric_ && (place.law.frictionCoefficient == 0 || place.law.cap == 0);
 }
 
 /// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
@@ -129,7 +130,7 @@ template <int Dim> void Contact<Dim>::look(int number)
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
 	const bool isThin        = body.nodes > 0 && body.thickness() < grid_.cellSize / 2;
-	const bool isPlain       = body.shape.kind == RigidKind::ball && (body.friction == 0 || body.adhesion == 0);
+	const bool isPlain       = body.shape.kind == RigidKind::ball && (body.frictionCoefficient == 0 || body.adhesion == 0);
 	if (first != last && body.turn > 1 && !isPlain) {
 		std::ostringstream text;
 		text << body.name << " turns by " << body.turn
@@ -236,7 +237,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	place.young          = sight->young;
 	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
-	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * place.area };
+	place.law            = { penalty, penalty / slipSoftness, body.frictionCoefficient, body.adhesion * place.area };
 	if (record) recall(place, *record, sight->gap);
 	places_.push_back(place);
 }
@@ -246,11 +247,11 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 /// body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
 template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
 {
-	const auto& body = system_.bodies[place.body];
-	place.friction   = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.friction) : record.friction;
+	const auto& body      = system_.bodies[place.body];
+	place.tangentialForce = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.tangentialForce) : record.tangentialForce;
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
-	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
+	place.gap           = std::max(record.gap, -record.normalForce / place.law.normalStiffness);
 	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.creep / grid_.cellSize);
 	place.gap += creeps * std::min(0., seen - place.gap);
 }
@@ -261,7 +262,7 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, cons
 	const auto&    body = system_.bodies[place.body];
 	const Vec<Dim> u    = place.pressed.displacement(d);
 	const Moved    now  = moved(place);
-	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.friction };
+	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.tangentialForce };
 	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
 		a.at = body.proximity(body.end, place.soil + u, 1);
 		a.at.gap += place.gap - place.away;
@@ -298,8 +299,9 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 
 template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 {
-	const auto add
-	        = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) { addAttachedForce<Dim>(at, r.pressure * r.normal + r.friction, { force }); };
+	const auto add = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) {
+		addAttachedForce<Dim>(at, r.normalForce * r.normal + r.tangentialForce, { force });
+	};
 	for (const Place& place : places_)
 		if (const auto* r = recordOf(place); r && r->touches) add(place.pressed, *r);
 	for (const auto& [attached, record] : lost_)
@@ -329,7 +331,7 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 {
 	const auto holds = [&](const Place& place) {
 		if (system_.bodies[place.body].free >= 0) return; // it yields
-		const bool     sticks = place.law.friction > 0 && place.law.cap > 0;
+		const bool     sticks = place.law.frictionCoefficient > 0 && place.law.cap > 0;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
@@ -345,7 +347,7 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
 		if (system_.bodies[place.body].free >= 0) return;
-		const bool     sticks = place.law.friction > 0 && place.law.cap > 0 && !touched.slips;
+		const bool     sticks = place.law.frictionCoefficient > 0 && place.law.cap > 0 && !touched.slips;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
@@ -412,9 +414,10 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
 	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches) sum -= stored(place.law, std::max(0., -place.law.normal * place.gap), r->friction.norm());
+		if (const auto* r = recordOf(place); r && r->touches)
+			sum -= stored(place.law, std::max(0., -place.law.normalStiffness * place.gap), r->tangentialForce.norm());
 	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
-		sum += touched.force().dot(near.slip) + stored(place.law, touched.pressure, touched.friction.norm());
+		sum += touched.force().dot(near.slip) + stored(place.law, touched.normalForce, touched.tangentialForce.norm());
 	});
 	return sum;
 }
@@ -426,8 +429,8 @@ template <int Dim> void Contact<Dim>::turnPlaces(const Eigen::VectorXd& d)
 	std::vector<double>   pressed(system_.bodies.size(), 0);
 	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
 		const Vec<Dim>& n = touched.normal;
-		turns[place.body] += touched.pressure * (near.slip * n.transpose() - n * near.slip.transpose());
-		pressed[place.body] += touched.pressure;
+		turns[place.body] += touched.normalForce * (near.slip * n.transpose() - n * near.slip.transpose());
+		pressed[place.body] += touched.normalForce;
 	});
 	for (std::size_t i = 0; i < turns.size(); ++i) {
 		auto& body = system_.bodies[i];
@@ -455,7 +458,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
 		auto& r   = records[&place - places_.data()];
-		r.touches = true, r.slips = touched.slips, r.pressure = touched.pressure, r.friction = touched.friction;
+		r.touches = true, r.slips = touched.slips, r.normalForce = touched.normalForce, r.tangentialForce = touched.tangentialForce;
 		system_.work += touched.force().dot(place.pressed.displacement(d));
 		addLoads(place, r.place, touched);
 	});

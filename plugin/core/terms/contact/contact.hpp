@@ -18,12 +18,12 @@ template <int Dim> struct ContactRecord {
 	std::int64_t number;      ///< of the place on the body, and above placeBits the layer of the soil
 	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
-	double       pressure = 0;                                           ///< normal force [N]
-	double       presence = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
-	double       travel   = 0;                                           ///< how far soil moved along the body in that step [m]
-	double       creep    = 0;                                           ///< the part of it in which soil moves through the grid [m]
-	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
-	Vec<Dim>     place = Vec<Dim>::Zero();                               ///< of the soil at the end of the step [m]
+	double       normalForce     = 0;                                           ///< [N]
+	double       presence        = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
+	double       travel          = 0;                                           ///< how far soil moved along the body in that step [m]
+	double       creep           = 0;                                           ///< the part of it in which soil moves through the grid [m]
+	Vec<Dim>     tangentialForce = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
+	Vec<Dim>     place = Vec<Dim>::Zero();                                      ///< of the soil at the end of the step [m]
 };
 
 /// So a number stays one that doubles have.
@@ -113,14 +113,14 @@ private:
 	struct Place {
 		int             body;
 		std::int64_t    number;
-		Vec<Dim>        soil;                        ///< where that begins, at the start of the step
-		Vec<Dim>        carried;                     ///< by which the body would have moved it by the end
-		Vec<Dim>        normal;                      ///< at the end
-		double          away;                        ///< of the soil from the body, at the start [m]
-		double          gap;                         ///< what counts as that
-		double          presence;                    ///< of soil in front of it
-		double          area, young;                 ///< of the surface with soil in front of it [m2]; of the soil [Pa]
-		Vec<Dim>        friction = Vec<Dim>::Zero(); ///< at the start, turned with the body
+		Vec<Dim>        soil;                               ///< where that begins, at the start of the step
+		Vec<Dim>        carried;                            ///< by which the body would have moved it by the end
+		Vec<Dim>        normal;                             ///< at the end
+		double          away;                               ///< of the soil from the body, at the start [m]
+		double          gap;                                ///< what counts as that
+		double          presence;                           ///< of soil in front of it
+		double          area, young;                        ///< of the surface with soil in front of it [m2]; of the soil [Pa]
+		Vec<Dim>        tangentialForce = Vec<Dim>::Zero(); ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 		Footprint<Dim>  pressed; ///< nodes by which it sees the soil move, and on which it presses
@@ -154,7 +154,7 @@ private:
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	struct Moved {
-		Vec<Dim> carried, normal, friction;
+		Vec<Dim> carried, normal, tangentialForce;
 	};
 	Moved                     moved(const Place&) const;
 	void                      settle(const Eigen::VectorXd& d) const;

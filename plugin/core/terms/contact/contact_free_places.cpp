@@ -22,9 +22,9 @@ template <int Dim> struct AtNode {
 template <int Dim> typename Contact<Dim>::Moved Contact<Dim>::moved(const Place& place) const
 {
 	const auto& body = system_.bodies[place.body];
-	if (body.free < 0) return { place.carried, place.normal, place.friction };
+	if (body.free < 0) return { place.carried, place.normal, place.tangentialForce };
 	const Mat<Dim> turn = body.end.rotation * body.begin.rotation.transpose();
-	return { body.carried(place.soil), turn * place.normal, turn * place.friction };
+	return { body.carried(place.soil), turn * place.normal, turn * place.tangentialForce };
 }
 
 /// Puts all bodies of the owner where this motion brings them.

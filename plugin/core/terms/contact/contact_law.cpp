@@ -11,28 +11,29 @@ template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, c
 	if (!isPressed && !(law.around > 0 && gap <= law.reach)) return std::nullopt;
 	const Mat<Dim> P = Mat<Dim>::Identity() - n * n.transpose();
 	Touch<Dim>     t;
-	t.normal   = n;
-	t.pressure = std::max(0., -law.normal * gap);
-	if (isPressed) t.slope = -law.normal * n * n.transpose() + t.pressure * dn;
-	const double limit = std::min(law.friction * std::max(t.pressure, law.around), law.cap);
-	if (law.friction == 0 || law.cap == 0) return t;
+	t.normal      = n;
+	t.normalForce = std::max(0., -law.normalStiffness * gap);
+	if (isPressed) t.slope = -law.normalStiffness * n * n.transpose() + t.normalForce * dn;
+	const double limit = std::min(law.frictionCoefficient * std::max(t.normalForce, law.around), law.cap);
+	if (law.frictionCoefficient == 0 || law.cap == 0) return t;
 	if (limit == 0) {
-		t.slope -= law.tangential * P * approach.slipSlope;
+		t.slope -= law.tangentialStiffness * P * approach.slipSlope;
 		return t;
 	}
-	const Vec<Dim> y = approach.friction - law.tangential * approach.slip, trial = P * y;
-	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangential * P * approach.slipSlope;
+	const Vec<Dim> y = approach.tangentialForce - law.tangentialStiffness * approach.slip, trial = P * y;
+	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangentialStiffness * P * approach.slipSlope;
 	const double   size   = trial.norm();
 	t.slips               = size > limit;
 	if (!t.slips) {
-		t.friction = trial;
+		t.tangentialForce = trial;
 		t.slope += dtrial;
 		return t;
 	}
 	const Vec<Dim> along = trial / size;
-	t.friction           = limit * along;
+	t.tangentialForce    = limit * along;
 	t.slope += limit / size * (dtrial - along * (along.transpose() * dtrial));
-	if (t.pressure >= law.around && law.friction * t.pressure < law.cap) t.slope -= law.friction * law.normal * along * n.transpose();
+	if (t.normalForce >= law.around && law.frictionCoefficient * t.normalForce < law.cap)
+		t.slope -= law.frictionCoefficient * law.normalStiffness * along * n.transpose();
 	return t;
 }
 

@@ -7,29 +7,29 @@
 namespace gimpm {
 
 template <int Dim> struct ContactLaw {
-	double normal, tangential; ///< stiffness of the penalty [N/m]
-	double friction;           ///< coefficient [-]
-	double cap;                ///< of the frictional force [N]
+	double normalStiffness, tangentialStiffness; ///< of the penalty [N/m]
+	double frictionCoefficient;                  ///< [-]
+	double cap;                                  ///< of the tangential force [N]
 	/// What presses on places around as well as on this one, by which it rubs at least [N]; up to which gap [m].
 	double around = 0, reach = 0;
 };
 
 /// Where the place is by the body, and how it has moved along it in the step.
 template <int Dim> struct Approach {
-	Proximity<Dim> at;        ///< at the end of the step; the gap less that which counts as none
-	Vec<Dim>       slip;      ///< relative displacement in the step [m]
-	Mat<Dim>       slipSlope; ///< its derivative by the place
-	Vec<Dim>       friction;  ///< force at the end of the last step [N]
+	Proximity<Dim> at;              ///< at the end of the step; the gap less that which counts as none
+	Vec<Dim>       slip;            ///< relative displacement in the step [m]
+	Mat<Dim>       slipSlope;       ///< its derivative by the place
+	Vec<Dim>       tangentialForce; ///< at the end of the last step [N]
 };
 
 template <int Dim> struct Touch {
-	/// Of the body; frictional force on the soil [N].
-	Vec<Dim> normal = Vec<Dim>::Zero(), friction = Vec<Dim>::Zero();
-	double   pressure = 0; ///< normal force [N]
-	bool     slips    = false;
-	Mat<Dim> slope    = Mat<Dim>::Zero(); ///< derivative of the force by the place [N/m]
+	/// Of the body; tangential force on the soil [N].
+	Vec<Dim> normal = Vec<Dim>::Zero(), tangentialForce = Vec<Dim>::Zero();
+	double   normalForce = 0; ///< [N]
+	bool     slips       = false;
+	Mat<Dim> slope       = Mat<Dim>::Zero(); ///< derivative of the force by the place [N/m]
 
-	Vec<Dim> force() const { return pressure * normal + friction; } ///< on the soil
+	Vec<Dim> force() const { return normalForce * normal + tangentialForce; } ///< on the soil
 };
 
 /// A penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip since the place began

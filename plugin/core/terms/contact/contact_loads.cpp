@@ -8,8 +8,9 @@ namespace gimpm {
 
 template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const Touch<Dim>& touched) const
 {
-	const double along = touched.slips || at.law.friction == 0 || at.law.cap == 0 ? 0 : at.law.tangential;
-	return at.law.normal * touched.normal * touched.normal.transpose() + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
+	const double along = touched.slips || at.law.frictionCoefficient == 0 || at.law.cap == 0 ? 0 : at.law.tangentialStiffness;
+	return at.law.normalStiffness * touched.normal * touched.normal.transpose()
+	        + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
 }
 
 /// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil

@@ -30,14 +30,14 @@ template <int Dim> void Contact<Dim>::spreadPressure()
 		return key;
 	};
 	const auto isMeant = [&](const Place& place) {
-		return system_.bodies[place.body].shape.kind == RigidKind::ball && place.law.friction > 0 && std::isfinite(place.law.cap);
+		return system_.bodies[place.body].shape.kind == RigidKind::ball && place.law.frictionCoefficient > 0 && std::isfinite(place.law.cap);
 	};
 	std::map<std::array<int, Dim + 1>, Pressed> cells;
 	for (const Place& place : places_) {
 		if (!isMeant(place)) continue;
 		auto& cell = cells[cellOf(place)];
 		cell.area += place.area;
-		if (const auto* r = recordOf(place)) cell.force += r->pressure;
+		if (const auto* r = recordOf(place)) cell.force += r->normalForce;
 	}
 	for (Place& place : places_) {
 		if (!isMeant(place)) continue;

@@ -55,13 +55,13 @@ template <int Dim> struct Proximity {
 
 template <int Dim> struct RigidBody {
 	RigidShape<Dim> shape;
-	std::string     name;                                                ///< for messages
-	int             owner     = 0;                                       ///< who moves it, and takes its forces: a clump or itself
-	bool            isNew     = false;                                   ///< what it overlaps at the start is taken as fitting
-	double          friction  = 0;                                       ///< coefficient [-]
-	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
-	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
-	Pose<Dim>       begin {}, end {};                                    ///< of the step
+	std::string     name;                                                          ///< for messages
+	int             owner               = 0;                                       ///< who moves it, and takes its forces: a clump or itself
+	bool            isNew               = false;                                   ///< what it overlaps at the start is taken as fitting
+	double          frictionCoefficient = 0;                                       ///< [-]
+	double          adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double          stiffness           = 0;                                       ///< of the contact, over Young's modulus per cell [-]
+	Pose<Dim>       begin {}, end {};                                              ///< of the step
 	double          turn     = 0;  ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
 	int             soilSide = 0;  ///< of a two-sided surface that has had soil in sight on one side alone: that side
 	double          slack    = 0;  ///< how far behind the surface soil still counts as on that side [m]

@@ -138,11 +138,11 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const MpmBodyContact& contact) const
 {
 	gimpm::BodyMeeting<Dim> meeting;
-	meeting.slave     = grid.bodyNamed(contact.between[contact.slave]);
-	meeting.master    = grid.bodyNamed(contact.between[1 - contact.slave]);
-	meeting.friction  = std::tan(contact.friction);
-	meeting.adhesion  = contact.adhesion;
-	meeting.stiffness = contact.stiffness;
+	meeting.slave               = grid.bodyNamed(contact.between[contact.slave]);
+	meeting.master              = grid.bodyNamed(contact.between[1 - contact.slave]);
+	meeting.frictionCoefficient = std::tan(contact.friction);
+	meeting.adhesion            = contact.adhesion;
+	meeting.stiffness           = contact.stiffness;
 	meeting.touching = contact.touching, meeting.slipping = contact.slipping;
 	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
 	meeting.pressure = contact.pressures;

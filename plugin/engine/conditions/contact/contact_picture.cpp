@@ -61,8 +61,8 @@ namespace {
 		const bool touches = r && r->touches;
 		const Real wetted  = r ? area * r->presence : area;
 		picture.set("force", touches ? r->force() : Vector3r(Vector3r::Zero()));
-		picture.set("pressure", touches ? r->pressure / wetted : 0);
-		picture.set("shear", touches ? r->friction.norm() / wetted : 0);
+		picture.set("pressure", touches ? r->normalForce / wetted : 0);
+		picture.set("shear", touches ? r->tangentialForce.norm() / wetted : 0);
 		if (r) picture.set("gap", r->gap), picture.set("slip", r->travel);
 		picture.set("touches", int(touches));
 		picture.set("slips", int(touches && r->slips));

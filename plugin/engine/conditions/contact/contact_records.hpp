@@ -13,9 +13,9 @@ struct ContactRecordOfPlace {
 
 	std::int64_t number;
 	int          body; // id
-	Real         gap, pressure, presence, travel, creep;
+	Real         gap, normalForce, presence, travel, creep;
 	bool         touches, slips;
-	Vector3r     friction, normal, place;
+	Vector3r     tangentialForce, normal, place;
 
 	static ContactRecordOfPlace from(const Real* x)
 	{
@@ -26,12 +26,12 @@ struct ContactRecordOfPlace {
 	void        appendTo(vector<Real>& numbers) const
 	{
 		if (numbers.empty()) numbers.push_back(mark);
-		for (const Real x : { Real(number), Real(body), gap, pressure, presence, travel, creep, Real(touches), Real(slips) })
+		for (const Real x : { Real(number), Real(body), gap, normalForce, presence, travel, creep, Real(touches), Real(slips) })
 			numbers.push_back(x);
-		for (const Vector3r& v : { friction, normal, place })
+		for (const Vector3r& v : { tangentialForce, normal, place })
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);
 	}
-	Vector3r force() const { return pressure * normal + friction; } // on the soil [N]
+	Vector3r force() const { return normalForce * normal + tangentialForce; } // on the soil [N]
 };
 
 // Calls f(record) for each of them.

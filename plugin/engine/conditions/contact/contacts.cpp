@@ -177,12 +177,12 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 
 template <int Dim> void Contacts<Dim>::add(const MpmContact& contact, gimpm::RigidBody<Dim> rigid, const Member& member, int number)
 {
-	rigid.owner     = number;
-	rigid.free      = owners[number].free;
-	rigid.isNew     = owners[number].isNew;
-	rigid.friction  = frictionOf(contact, *member.body, coefficient);
-	rigid.adhesion  = contact.adhesion;
-	rigid.stiffness = contact.stiffness;
+	rigid.owner               = number;
+	rigid.free                = owners[number].free;
+	rigid.isNew               = owners[number].isNew;
+	rigid.frictionCoefficient = frictionOf(contact, *member.body, coefficient);
+	rigid.adhesion            = contact.adhesion;
+	rigid.stiffness           = contact.stiffness;
 	members.push_back(member);
 	system->bodies.push_back(rigid);
 }

@@ -24,9 +24,10 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 	forRecords(contact.records, [&](const ContactRecordOfPlace& r) {
 		const auto body = numbers.find(r.body);
 		if (body == numbers.end()) return; // erased
-		const gimpm::Vec<Dim> friction = r.friction.template head<Dim>(), normal = r.normal.template head<Dim>(), place = r.place.template head<Dim>();
+		const gimpm::Vec<Dim> tangentialForce = r.tangentialForce.template head<Dim>(), normal = r.normal.template head<Dim>(),
+		                      place = r.place.template head<Dim>();
 		system->records.push_back(
-		        { body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.presence, r.travel, r.creep, friction, normal, place });
+		        { body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.presence, r.travel, r.creep, friction, normal, place });
 	});
 }
 
@@ -61,13 +62,13 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 		ContactRecordOfPlace { r.number,
 			               members[r.body].body->id,
 			               r.gap,
-			               r.pressure,
+			               r.normalForce,
 			               r.presence,
 			               r.travel,
 			               r.creep,
 			               r.touches,
 			               r.slips,
-			               inSpace<Dim>(r.friction),
+			               inSpace<Dim>(r.tangentialForce),
 			               inSpace<Dim>(r.normal),
 			               inSpace<Dim>(r.place) }
 		        .appendTo(to.records);
