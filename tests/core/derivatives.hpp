@@ -36,12 +36,12 @@ template <int Dim> std::pair<Eigen::MatrixXd, Eigen::MatrixXd> tangentAndDerivat
 template <int Dim> double tangentErrorAlong(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& direction, double step)
 {
 	NodeMatrix<Dim> K;
-	Eigen::VectorXd force, above, below, slope = Eigen::VectorXd::Zero(d.size());
+	Eigen::VectorXd force, above, below, tangent = Eigen::VectorXd::Zero(d.size());
 	system.prepare(K);
 	EXPECT_FALSE(system.evaluate(d, force, &K));
-	K.multiplyAdd(direction, slope);
+	K.multiplyAdd(direction, tangent);
 	EXPECT_FALSE(system.evaluate(d + step * direction, above, nullptr) || system.evaluate(d - step * direction, below, nullptr));
-	return ((above - below) / (2 * step) - slope).norm() / slope.norm();
+	return ((above - below) / (2 * step) - tangent).norm() / tangent.norm();
 }
 
 /// The largest difference between entries, relative to the largest one.

@@ -28,7 +28,7 @@ template <int Dim, class F> void forGradients(const CloudBasis<Dim>& basis, F&& 
 				gradient[n][i] = 1;
 				for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a) {
 					const auto& axis = basis.axes[p][a];
-					gradient[n][i] *= (a == i ? axis.slope : axis.value)[rest % patch.nodesAlong(a)];
+					gradient[n][i] *= (a == i ? axis.gradient : axis.value)[rest % patch.nodesAlong(a)];
 				}
 			}
 		f(basis.order[p], patch, value, gradient, count);
@@ -76,7 +76,7 @@ public:
 				const int a = patch.node[n];
 				if (a < 0) continue;
 				s.F += d.template segment<Dim>(Dim * a) * G[n].transpose();
-				s.pressure += S[n] * P[a], s.slope += P[a] * G[n];
+				s.pressure += S[n] * P[a], s.pressureGradient += P[a] * G[n];
 			}
 			s.finish();
 			addForces(s, patch, S, G, count, sum);
@@ -102,8 +102,8 @@ public:
 private:
 	struct PointState {
 		double   volume, pressure = 0, J = 1;
-		Vec<Dim> slope = Vec<Dim>::Zero();
-		Mat<Dim> F     = Mat<Dim>::Identity(), inverse; // deformation in the step
+		Vec<Dim> pressureGradient = Vec<Dim>::Zero();
+		Mat<Dim> F                = Mat<Dim>::Identity(), inverse; // deformation in the step
 		explicit PointState(double volume) : volume(volume) { }
 		void     finish() { J = F.determinant(), inverse = F.inverse(); }
 		Vec<Dim> now(const Vec<Dim>& gradient) const { return inverse.transpose() * gradient; }
@@ -116,7 +116,7 @@ private:
 			const int a = patch.node[n];
 			if (a < 0) continue;
 			const Vec<Dim> push   = -medium_.push * s.pressure * s.volume * s.J * s.now(G[n]);
-			const double   flow   = medium_.sign * conductivity * s.volume * s.slope.dot(G[n]);
+			const double   flow   = medium_.sign * conductivity * s.volume * s.pressureGradient.dot(G[n]);
 			const double   stored = medium_.sign * medium_.storage * s.volume * (s.J - 1) * S[n];
 			sum.force[0].template segment<Dim>(Dim * a) += push;
 			sum.absoluteContributions[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
@@ -135,7 +135,8 @@ private:
 			const Vec<Dim> stored = medium_.sign * medium_.storage * s.volume * s.J * S[m] * gb;
 			sum.couplings->add({ 0, a }, { field, b }, push);
 			sum.couplings->add({ field, a }, { 0, b }, stored.transpose());
-			sum.couplings->add({ field, a }, { field, b }, medium_.sign * s.volume * (conductivity * G[n] + growth * S[n] * s.slope).dot(G[m]));
+			sum.couplings->add(
+			        { field, a }, { field, b }, medium_.sign * s.volume * (conductivity * G[n] + growth * S[n] * s.pressureGradient).dot(G[m]));
 		});
 	}
 	void addGhost(const Eigen::VectorXd& P, const FieldSum<Dim>& sum) const

@@ -41,8 +41,8 @@ struct AxisCells {
 /// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two
 /// (3 nodes).
 struct AxisBasis {
-	double value[4]; ///< the last one is zero: four numbers fill a row of lanes
-	double slope[4]; ///< [1/m]
+	double value[4];    ///< the last one is zero: four numbers fill a row of lanes
+	double gradient[4]; ///< [1/m]
 
 	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the
 	/// given cell. They are also the exact average over any domain inside that cell.
@@ -77,14 +77,14 @@ struct AxisBasis {
 
 	/// Share of the length of a domain in two cells, or of the volume of a ring, that lies in the lower (0) or the
 	/// upper one (1): there the outer functions have the slope 1/h, elsewhere none.
-	double share(int cell, double h) const { return h * (cell == 0 ? -slope[0] : slope[2]); }
+	double share(int cell, double h) const { return h * (cell == 0 ? -gradient[0] : gradient[2]); }
 
 private:
 	/// Number by number: a whole that is put together elsewhere and then copied takes longer.
 	void set(double v0, double v1, double v2, double s0, double s1, double s2)
 	{
 		value[0] = v0, value[1] = v1, value[2] = v2, value[3] = 0;
-		slope[0] = s0, slope[1] = s1, slope[2] = s2, slope[3] = 0;
+		gradient[0] = s0, gradient[1] = s1, gradient[2] = s2, gradient[3] = 0;
 	}
 };
 

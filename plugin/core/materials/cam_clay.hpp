@@ -128,7 +128,7 @@ private:
 	/// and flow is normal to the surface where
 	///   S(u) = (es_tr - M P u / 3G) (1 - u^2) - 2 u v / M = 0.
 	template <class T> struct Flow {
-		T root, residual, slope;                ///< u, S, dS/du
+		T root, residual, derivative;           ///< u, S, dS/du
 		T volumetric, pressure, growth, secant; ///< v; P; d ln(1 + u^2) / du; secant shear modulus
 		T failed;
 	};
@@ -142,8 +142,8 @@ private:
 		f.volumetric     = T(swelling_) * plastic;
 		f.pressure       = trial.pressure * exponential(T(-plastic));
 		const T perShear = f.pressure * T(ratio_ / (3 * shear_)), elastic = perShear * u;
-		f.residual = (trial.shear - elastic) * left - perRatio * u * f.volumetric;
-		f.slope    = perShear * (u * T(plasticShare_) * f.growth - one) * left - T(2) * u * (trial.shear - elastic)
+		f.residual   = (trial.shear - elastic) * left - perRatio * u * f.volumetric;
+		f.derivative = perShear * (u * T(plasticShare_) * f.growth - one) * left - T(2) * u * (trial.shear - elastic)
 		        - perRatio * (f.volumetric + u * T(swelling_ * plasticShare_) * f.growth);
 		return f;
 	}
@@ -161,8 +161,8 @@ private:
 			f                  = at(trial, u);
 			low                = select(f.residual > zero, u, low);
 			high               = select(f.residual > zero, high, u);
-			const auto isSteep = zero > f.slope;
-			const T    newton  = u - f.residual / select(isSteep, f.slope, T(-1)),
+			const auto isSteep = zero > f.derivative;
+			const T    newton  = u - f.residual / select(isSteep, f.derivative, T(-1)),
 			        within     = select(newton > high, zero, select(low > newton, zero, one));
 			const T middle     = select(low >= one, sqrt(low * high), T(0.5) * (low + high));
 			const T next       = select(select(isSteep, within, zero) > zero, newton, middle);
@@ -187,7 +187,7 @@ private:
 	{
 		const T P = f.pressure, u = f.root, left = T(1) - u * u, Q = T(ratio_) * P * u, perLength(1 / compression_);
 		const T byVolume = left * Q * T(1 / (3 * shear_)) * perLength + T(2 * plasticShare_ / ratio_) * u;
-		const T inverse = T(-1) / select(trial.yields, f.slope, T(-1)), uByShear = left * inverse, uByVolume = byVolume * inverse;
+		const T inverse = T(-1) / select(trial.yields, f.derivative, T(-1)), uByShear = left * inverse, uByVolume = byVolume * inverse;
 		// Of ln P.
 		const T    share = T(plasticShare_) * f.growth, logByVolume = -perLength - share * uByVolume, logByShear = -share * uByShear;
 		const auto of = [&](const T& plastic, const T& elastic) GIMPM_INLINE_LAMBDA { return select(trial.yields, plastic, elastic); };

@@ -71,14 +71,14 @@ struct HardeningSoil::Flow {
 };
 
 /// Of P and Q by volumetric strain, shear strain and direction of the trial.
-struct HardeningSoil::Slopes {
+struct HardeningSoil::Derivatives {
 	std::array<double, 5> pressure, difference;
 };
 
 HardeningSoil::HardeningSoil(const Given& g)
         : given_(g)
         , sine_(std::sin(g.frictionAngle))
-        , slope_(2 * sine_ / (1 - sine_))
+        , strengthRatio_(2 * sine_ / (1 - sine_))
         , shift_(g.cohesion / std::tan(g.frictionAngle))
         , unit_(g.reference + shift_)
         , initialModulus_(2 * g.secant / (2 - g.failureRatio))
@@ -98,18 +98,18 @@ HardeningSoil::AtRest::AtRest(const HardeningSoil& law)
         : pressure((1 + 2 * law.given_.restRatio) / 3 * law.given_.reference + law.shift_), difference((1 - law.given_.restRatio) * law.given_.reference)
 {
 	const Given& g        = law.given_;
-	const double smallest = g.restRatio * g.reference + law.shift_, factor = law.factorAt(smallest), strength = law.slope_ * smallest;
+	const double smallest = g.restRatio * g.reference + law.shift_, factor = law.factorAt(smallest), strength = law.strengthRatio_ * smallest;
 	mobilised       = difference / strength;
 	byElasticVolume = (1 + 2 * g.restRatio) / (3 * factor * law.bulk_);
 	byElasticShear  = (1 - g.restRatio) / (3 * factor * law.shear_);
 	// The hyperbola strength / factor * f(mobilised), of which strength goes with the smallest pressure.
-	const double below   = 1 - g.failureRatio * mobilised;
-	const double slope   = 2 / (law.initialModulus_ * below * below) - 2 / g.unloading;
-	const double byRest  = law.slope_ / factor * ((1 - g.power) * law.hyperbola(mobilised) - slope * mobilised);
-	const double growth  = byRest * g.restRatio + slope / factor * (1 - g.restRatio);
-	const double dilates = law.dilatancy(difference / (difference + 2 * smallest));
-	byShearShear         = growth * (3 - dilates) / (6 * (1 - dilates));
-	byShearVolume        = -dilates * growth / (1 - dilates);
+	const double below      = 1 - g.failureRatio * mobilised;
+	const double derivative = 2 / (law.initialModulus_ * below * below) - 2 / g.unloading;
+	const double byRest     = law.strengthRatio_ / factor * ((1 - g.power) * law.hyperbola(mobilised) - derivative * mobilised);
+	const double growth     = byRest * g.restRatio + derivative / factor * (1 - g.restRatio);
+	const double dilates    = law.dilatancy(difference / (difference + 2 * smallest));
+	byShearShear            = growth * (3 - dilates) / (6 * (1 - dilates));
+	byShearVolume           = -dilates * growth / (1 - dilates);
 }
 
 double HardeningSoil::largestOedometric(const Given& given)
@@ -148,12 +148,12 @@ double HardeningSoil::factorAt(double smallest) const { return std::pow(std::max
 /// Plastic shear strain times the modulus factor, over the strength: 2 / Ei u / (1 - Rf u) - 2 / Eur u.
 double HardeningSoil::hyperbola(double u) const { return 2 * u / (initialModulus_ * (1 - given_.failureRatio * u)) - 2 * u / given_.unloading; }
 
-double HardeningSoil::mostHardening(double smallest) const { return slope_ * smallest / factorAt(smallest) * hyperbola(1); }
+double HardeningSoil::mostHardening(double smallest) const { return strengthRatio_ * smallest / factorAt(smallest) * hyperbola(1); }
 
 /// The part of the strength to which a shear hardening has led, at most 1.
 double HardeningSoil::mobilisedAt(double hardening, double smallest) const
 {
-	const double first = 2 / initialModulus_, last = 2 / given_.unloading, b = hardening * factorAt(smallest) / (slope_ * smallest);
+	const double first = 2 / initialModulus_, last = 2 / given_.unloading, b = hardening * factorAt(smallest) / (strengthRatio_ * smallest);
 	const double h = first - last + b * given_.failureRatio;
 	return std::min(1., 2 * b / (h + std::sqrt(h * h + 4 * last * given_.failureRatio * b)));
 }
@@ -209,7 +209,7 @@ HardeningSoil::Flow HardeningSoil::returned(const Trial& trial) const
 	const double P = trial.pressure(shift_), Q = trial.difference(), apart = trial.direction[0] - trial.direction[2];
 	const auto   beyond = [&](const Flow& flow, double hardening) {
                 const double smallest = flow.pressure + flow.difference * trial.direction[2], Q = flow.difference * apart;
-                return smallest > 0 ? Q - slope_ * smallest * mobilisedAt(hardening, smallest) : Q - smallest;
+                return smallest > 0 ? Q - strengthRatio_ * smallest * mobilisedAt(hardening, smallest) : Q - smallest;
 	};
 	Flow       flow;
 	const auto at = [&](double shear) {
@@ -253,13 +253,13 @@ std::array<T, 4> HardeningSoil::residual(const Trial& trial, const Flow& flow, c
 	std::array<T, 4>       r;
 	r[0]             = T(P - shift_ - trial.bulk * (strains[0] - compaction + trial.sine * perShear * shear)) / unit_;
 	r[1]             = T(Q * (1. + 3 * trial.shear * shape * compaction / P) - 3 * trial.shear * (strains[1] - shear)) / unit_;
-	const T smallest = P + Q * nu[2], deviation = Q * (nu[0] - nu[2]), u = deviation / (slope_ * smallest);
+	const T smallest = P + Q * nu[2], deviation = Q * (nu[0] - nu[2]), u = deviation / (strengthRatio_ * smallest);
 	if (flow.mode == Flow::Shear::fails) r[2] = T(u - 1.);
 	else if (flow.mode == Flow::Shear::hardens) {
 		const T part   = T(smallest / unit_);
 		const T factor = valueOf(part) > leastPressure ? T(pow(part, given_.power)) : T(factorAt(0));
 		const T grown  = T(2. * u / T(initialModulus_ * (1. - given_.failureRatio * u))) - (2 / given_.unloading) * u;
-		r[2]           = T(slope_ * smallest / factor * grown - trial.hardening - (1 - trial.sine) * perShear * shear) * (initialModulus_ / unit_);
+		r[2] = T(strengthRatio_ * smallest / factor * grown - trial.hardening - (1 - trial.sine) * perShear * shear) * (initialModulus_ / unit_);
 	} else
 		r[2] = shear;
 	if (!flow.isOnCap) {
@@ -315,7 +315,7 @@ bool HardeningSoil::polish(const Trial& trial, Flow& flow) const
 	return false;
 }
 
-HardeningSoil::Slopes HardeningSoil::slopes(const Trial& trial, const Flow& flow) const
+HardeningSoil::Derivatives HardeningSoil::derivatives(const Trial& trial, const Flow& flow) const
 {
 	if (flow.mode == Flow::Shear::apex) return { { floorAtApex * trial.bulk }, { 0, floorAtApex * 3 * trial.shear } };
 	if (flow.mode == Flow::Shear::none && !flow.isOnCap) return { { trial.bulk }, { 0, 3 * trial.shear } };
@@ -327,7 +327,7 @@ HardeningSoil::Slopes HardeningSoil::slopes(const Trial& trial, const Flow& flow
 	for (int i = 0; i < 4; ++i)
 		J.row(i) = r[i].derivatives().head<4>(), by.row(i) = r[i].derivatives().tail<5>();
 	const Eigen::Matrix<double, 4, 5> d = -solutionOf(J, by);
-	Slopes                            s;
+	Derivatives                       s;
 	for (int i = 0; i < 5; ++i)
 		s.pressure[i] = d(0, i), s.difference[i] = d(1, i);
 	return s;
@@ -360,7 +360,7 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double g
 	const Vec3   deviator = strain.array() - strain.mean();
 	r.stress              = shift_ - flow.pressure + (2 * part * trial.shear * deviator).array();
 	r.shear.fill(std::max(part, floorAtApex) * trial.shear);
-	setTangent(trial, slopes(trial, flow), deviator, r);
+	setTangent(trial, derivatives(trial, flow), deviator, r);
 	setState(trial, flow, state);
 	state.scalar(plasticStrain) += std::max(0., (1 - part) * trial.sheared);
 	state.scalar(dilated) += growth;
@@ -371,7 +371,7 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double g
 }
 
 /// With d nu_i / d e_j = -sqrt(2/3) / |dev e| (delta_ij - 1/3 - n_i n_j).
-void HardeningSoil::setTangent(const Trial& trial, const Slopes& s, const Vec3& deviator, Response& r) const
+void HardeningSoil::setTangent(const Trial& trial, const Derivatives& s, const Vec3& deviator, Response& r) const
 {
 	const double length = deviator.norm(), root = std::sqrt(2. / 3), perLength = length > 0 ? root / length : 0;
 	const Vec3   n = length > 0 ? Vec3(deviator / length) : Vec3(Vec3::Zero()), nu = -root * n;
@@ -418,11 +418,11 @@ TensorState HardeningSoil::bearing(const Mat3& stress, TensorState state) const
 {
 	const Vec3   pressure = shift_ - principal(SymTensor<3>::from(stress)).value.array();
 	const double smallest = pressure.minCoeff(), largest = pressure.maxCoeff(), mean = pressure.mean();
-	const double mobilised  = smallest > 0 ? (largest - smallest) / (slope_ * smallest) : 0;
+	const double mobilised  = smallest > 0 ? (largest - smallest) / (strengthRatio_ * smallest) : 0;
 	state.scalar(stiffness) = factorAt(smallest);
 	setMobilised(state, smallest, largest);
 	// What is beyond the strength no hardening bears.
-	const double reached         = slope_ * std::max(smallest, 0.) / factorAt(smallest) * hyperbola(std::min(mobilised, 1.));
+	const double reached         = strengthRatio_ * std::max(smallest, 0.) / factorAt(smallest) * hyperbola(std::min(mobilised, 1.));
 	state.scalar(shearHardening) = std::max(state.scalar(shearHardening), reached);
 	std::array<double, 3> sorted { pressure[0], pressure[1], pressure[2] };
 	std::sort(sorted.rbegin(), sorted.rend());

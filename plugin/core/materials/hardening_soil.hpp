@@ -82,7 +82,7 @@ private:
 	};
 	struct Trial;
 	struct Flow;
-	struct Slopes;
+	struct Derivatives;
 
 	double                              factorAt(double smallest) const; ///< of moduli, at a smallest pressure plus shift
 	double                              hyperbola(double mobilised) const;
@@ -93,16 +93,16 @@ private:
 	Flow                                onCap(const Trial&, double pressure, double difference) const;
 	Flow                                returned(const Trial&) const;
 	bool                                polish(const Trial&, Flow&) const;
-	Slopes                              slopes(const Trial&, const Flow&) const;
+	Derivatives                         derivatives(const Trial&, const Flow&) const;
 	Response                            respond(const Vec3& trialStrain, TensorState&, double growth, bool flows) const;
 	void                                setMobilised(TensorState&, double smallest, double largest) const;
-	void                                setTangent(const Trial&, const Slopes&, const Vec3& deviator, Response&) const;
+	void                                setTangent(const Trial&, const Derivatives&, const Vec3& deviator, Response&) const;
 	void                                setState(const Trial&, const Flow&, TensorState&) const;
 	template <class T> std::array<T, 4> residual(const Trial&, const Flow&, const std::array<T, 4>& unknown, const std::array<T, 5>& trial) const;
 
 	Given  given_;
-	double sine_, slope_, shift_, cap_, unit_; ///< sin phi; strength over pressure; c cot phi; 1 / alpha^2; reference + shift
-	double initialModulus_, bulk_, shear_;     ///< of the hyperbola; of unloading; at the reference pressure
+	double sine_, strengthRatio_, shift_, cap_, unit_; ///< sin phi; strength over pressure; c cot phi; 1 / alpha^2; reference + shift
+	double initialModulus_, bulk_, shear_;             ///< of the hyperbola; of unloading; at the reference pressure
 	double shape_ = 0, capModulus_ = 0, capUnit_ = 1;
 };
 

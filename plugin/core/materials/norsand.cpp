@@ -14,8 +14,8 @@ struct NorSand::Trial {
 /// The end of a return, and its derivatives by the volumetric and the shear strain of the trial.
 struct NorSand::Flow {
 	double                      volumetric, shear, image;
-	bool                        isFailed = false;
-	Eigen::Matrix<double, 2, 2> slopes   = Eigen::Matrix2d::Identity(); ///< of the first two by the trial
+	bool                        isFailed    = false;
+	Eigen::Matrix<double, 2, 2> derivatives = Eigen::Matrix2d::Identity(); ///< of the first two by the trial
 };
 
 NorSand::NorSand(const Given& given) : given_(given), nonAssociated_((1 - given.curvature) / (1 - given.flowCurvature)) { }
@@ -71,13 +71,13 @@ std::pair<NorSand::Vec4, NorSand::Mat4> NorSand::residual(const Trial& trial, co
 	const double a = given_.dilatancy / nonAssociated_, base = 1 - a * psi * N / M;
 	if (!(base > 0)) return { Vec4::Constant(std::numeric_limits<double>::quiet_NaN()), Mat4::Zero() };
 	const double most = N == 0 ? std::exp(a * psi / M) : std::pow(base, (N - 1) / N), byPsi = p * most * a / M * (N == 0 ? 1 : (1 - N) / base);
-	const double slope = (eta - M) / (1 - N);
-	Vec4         r(x[0] - trial.volumetric + flow * nonAssociated_ * slope, x[1] - trial.shear + flow, (q + eta * p) / given_.reference,
+	const double dilatancy = (eta - M) / (1 - N);
+	Vec4         r(x[0] - trial.volumetric + flow * nonAssociated_ * dilatancy, x[1] - trial.shear + flow, (q + eta * p) / given_.reference,
 	               (pi - trial.image + h * (pi - p * most) * flow) / given_.reference);
 	Mat4         J;
-	J << 1 + flow * nonAssociated_ * byP / (1 - N) * byVolume, 0, nonAssociated_ * slope, flow * nonAssociated_ * byPi / (1 - N), //
-	        0, 1, 1, 0,                                                                                                           //
-	        (byP * p + eta) * byVolume, 3 * G, 0, p * byPi,                                                                       //
+	J << 1 + flow * nonAssociated_ * byP / (1 - N) * byVolume, 0, nonAssociated_ * dilatancy, flow * nonAssociated_ * byPi / (1 - N), //
+	        0, 1, 1, 0,                                                                                                               //
+	        (byP * p + eta) * byVolume, 3 * G, 0, p * byPi,                                                                           //
 	        -h * flow * most * byVolume, 0, h * (pi - p * most), 1 + h * flow * (1 - byPsi * given_.compression / pi);
 	J.bottomRows<2>() /= given_.reference;
 	return { r, J };
@@ -170,17 +170,17 @@ NorSand::Flow NorSand::atTip(const Trial& trial) const
 	const bool isBetween = rest(low).first <= 0 && rest(high).first > 0;
 	double     pi        = (low + high) / 2;
 	for (int iteration = 0; iteration < 100 && high - low > 1e-15 * std::abs(pi); ++iteration) {
-		const auto [r, slope] = rest(pi);
-		(r <= 0 ? low : high) = pi;
-		const double next     = pi - r / slope;
-		const bool   isInside = next > low && next < high;
-		const double step     = (isInside ? next : (low + high) / 2) - pi;
+		const auto [r, derivative] = rest(pi);
+		(r <= 0 ? low : high)      = pi;
+		const double next          = pi - r / derivative;
+		const bool   isInside      = next > low && next < high;
+		const double step          = (isInside ? next : (low + high) / 2) - pi;
 		pi += step;
 		if (std::abs(step) <= 1e-14) break;
 	}
 	Flow flow { volumetricAt(-tip() * std::exp(pi)), 0, -std::exp(pi) };
 	flow.isFailed = !std::isfinite(flow.image) || !isBetween;
-	flow.slopes *= floorAtTip;
+	flow.derivatives *= floorAtTip;
 	return flow;
 }
 
@@ -217,7 +217,7 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	Eigen::Matrix<double, 4, 2> by    = Eigen::Matrix<double, 4, 2>::Zero();
 	by(0, 0) = by(1, 1) = 1;
 	by(3, 0)            = given_.hardening * x[2] * byPsi * trial.volume / given_.reference;
-	flow.slopes         = solutionOf(J, by).topRows<2>();
+	flow.derivatives    = solutionOf(J, by).topRows<2>();
 	return flow;
 }
 
@@ -228,7 +228,7 @@ NorSand::Flow NorSand::opened(const Flow& flow) const
 	const double least = -leastPressure * given_.reference;
 	if (flow.isFailed || pressureAt(flow.volumetric) <= least) return flow;
 	Flow open { volumetricAt(least), 0, std::min(flow.image, least / tip()) };
-	open.slopes *= floorAtTip;
+	open.derivatives *= floorAtTip;
 	return open;
 }
 
@@ -248,7 +248,7 @@ Response NorSand::respond(const Vec3& strain, TensorState& state, double growth,
 	r.elasticStrain = part * deviator.array() + flow.volumetric / 3;
 	r.stress        = 2 * G * part * deviator.array() + p;
 	r.shear.fill(std::max(part, floorAtTip) * G);
-	const Eigen::Matrix2d d   = Eigen::Vector2d(-p / given_.swelling, 3 * G).asDiagonal() * flow.slopes;
+	const Eigen::Matrix2d d   = Eigen::Vector2d(-p / given_.swelling, 3 * G).asDiagonal() * flow.derivatives;
 	const Mat3            one = Mat3::Constant(1. / 3);
 	const Vec3            I   = Vec3::Ones();
 	r.tangent                 = I * (d(0, 0) * I + root * d(0, 1) * n).transpose() + root * n * (d(1, 0) * I + root * d(1, 1) * n).transpose()

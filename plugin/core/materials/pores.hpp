@@ -18,8 +18,8 @@ struct Pores {
 
 	/// Of the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {
-		double value; ///< [m2/(Pa s)]
-		double slope; ///< d ln value / d ln J
+		double value;         ///< [m2/(Pa s)]
+		double logDerivative; ///< d ln value / d ln J
 	};
 	Conductivity at(double J) const;
 

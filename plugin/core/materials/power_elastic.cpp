@@ -58,7 +58,7 @@ bool PowerElastic::isSymmetric() const
 
 double PowerElastic::stiffnessOf(double energy) const { return std::pow(scale_ * std::sqrt(2 * energy / secant_.bulk() + floor_ * floor_), exponent_); }
 
-double PowerElastic::slopeOf(double energy) const { return exponent_ * stiffnessOf(energy) / (2 * energy + secant_.bulk() * floor_ * floor_); }
+double PowerElastic::derivativeOf(double energy) const { return exponent_ * stiffnessOf(energy) / (2 * energy + secant_.bulk() * floor_ * floor_); }
 
 double PowerElastic::energyOf(const Vec3& e) const
 {
@@ -84,9 +84,10 @@ std::optional<double> PowerElastic::solve(const Vec3& strain) const
 		const double energy = energyOf(left), belongs = stiffnessOf(energy), error = std::log(belongs / s);
 		if (std::abs(error) <= exact) return s;
 		(error > 0 ? low : high) = s;
-		const double slope = slopeOf(energy) / belongs * (left.dot(r.tangent * strain) - 2 * energy) - 1, next = s * std::exp(-error / slope);
-		const bool   isInside = slope < 0 && next > low && (high == 0 || next < high);
-		const double other    = high == 0 ? 4 * s : std::sqrt(low * high);
+		const double derivative  = derivativeOf(energy) / belongs * (left.dot(r.tangent * strain) - 2 * energy) - 1,
+		             next        = s * std::exp(-error / derivative);
+		const bool   isInside    = derivative < 0 && next > low && (high == 0 || next < high);
+		const double other       = high == 0 ? 4 * s : std::sqrt(low * high);
 		if (high > 0 && high - low <= 4e-16 * high) return s;
 		s = isInside ? next : other;
 	}
@@ -101,13 +102,13 @@ Response PowerElastic::respond(const Vec3& strain, TensorState& state) const
 	if (!s) return r;
 	const auto   own  = unscaled(*s * strain);
 	const Vec3   left = own.elasticStrain / *s, byStiffness = own.tangent * strain;
-	const double energy = energyOf(left), slope = slopeOf(energy) / *s;
+	const double energy = energyOf(left), derivative = derivativeOf(energy) / *s;
 	r.stress        = own.stress;
 	r.elasticStrain = left;
 	r.shear         = *s * own.shear;
 	// dt = s D de + D e ds, ds = f'' (e_e . dt - 2 W ds) / s, where D is the tangent without the power, at s e.
 	r.tangent = *s * own.tangent;
-	r.tangent += slope * *s / (1 - slope * (left.dot(byStiffness) - 2 * energy)) * byStiffness * (own.tangent.transpose() * left).transpose();
+	r.tangent += derivative * *s / (1 - derivative * (left.dot(byStiffness) - 2 * energy)) * byStiffness * (own.tangent.transpose() * left).transpose();
 	state.scalar(plasticStrain) += own.internals[0] / *s;
 	state.scalar(stiffness) = *s;
 	return r;
@@ -124,7 +125,7 @@ TensorAnswer PowerElastic::elastic(const TensorStep& step) const
 		const double energy = energyOf(strain), s = stiffnessOf(energy);
 		Response     r = secant_.respond(strain, {});
 		r.failed       = std::isfinite(s) ? 0 : 1;
-		r.tangent      = s * r.tangent + slopeOf(energy) * r.stress * r.stress.transpose();
+		r.tangent      = s * r.tangent + derivativeOf(energy) * r.stress * r.stress.transpose();
 		r.stress *= s;
 		r.shear *= s;
 		state.scalar(stiffness) = s;
@@ -142,7 +143,7 @@ double PowerElastic::stiffnessAt(const Mat3& stress) const
 	for (int iteration = 0; iteration < 200; ++iteration) {
 		const double energy = unit / (s * s), belongs = stiffnessOf(energy), error = std::log(belongs / s);
 		if (error <= 1e-15) break;
-		s *= std::exp(error / (1 + 2 * slopeOf(energy) / belongs * energy));
+		s *= std::exp(error / (1 + 2 * derivativeOf(energy) / belongs * energy));
 	}
 	return s;
 }

@@ -63,8 +63,8 @@ private:
 	/// Moduli do not fall below those at that part of the reference pressure, so that soil without stress has some.
 	static constexpr double leastPressure = .01;
 
-	double                  stiffnessOf(double energy) const; ///< s of W
-	double                  slopeOf(double energy) const;     ///< ds / dW
+	double                  stiffnessOf(double energy) const;  ///< s of W
+	double                  derivativeOf(double energy) const; ///< ds / dW
 	double                  energyOf(const Vec3& elasticStrain) const;
 	double                  stiffnessAt(const Mat3& stress) const;
 	ResponseWith<double, 1> unscaled(const Vec3& strain) const;

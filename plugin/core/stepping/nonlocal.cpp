@@ -65,29 +65,29 @@ private:
 	{
 		std::vector<Eigen::Triplet<double>> entries;
 		forMeant([&](int p, const Patch<Dim>& patch, const double* value, int count, double volume) {
-			std::array<Vec<Dim>, windowNodes<Dim>> slope;
+			std::array<Vec<Dim>, windowNodes<Dim>> gradient;
 			for (int n = 0; n < count; ++n)
-				slope[n] = slopeAt(p, patch, n);
+				gradient[n] = gradientAt(p, patch, n);
 			for (int a = 0; a < count; ++a)
 				for (int b = 0; b < count; ++b)
 					if (patch.node[a] >= 0 && patch.node[b] >= 0)
 						entries.emplace_back(
 						        number[patch.node[a]], number[patch.node[b]],
-						        volume * (value[a] * value[b] + length * length * slope[a].dot(slope[b])));
+						        volume * (value[a] * value[b] + length * length * gradient[a].dot(gradient[b])));
 		});
 		matrix.resize(nodes, nodes);
 		matrix.setFromTriplets(entries.begin(), entries.end());
 	}
-	Vec<Dim> slopeAt(int p, const Patch<Dim>& patch, int n) const
+	Vec<Dim> gradientAt(int p, const Patch<Dim>& patch, int n) const
 	{
 		std::array<int, Dim> at;
 		for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a)
 			at[a] = rest % patch.nodesAlong(a);
-		Vec<Dim> slope = Vec<Dim>::Ones();
+		Vec<Dim> gradient = Vec<Dim>::Ones();
 		for (int i = 0; i < Dim; ++i)
 			for (int a = 0; a < Dim; ++a)
-				slope[i] *= a == i ? basis.axes[p][a].slope[at[a]] : basis.axes[p][a].value[at[a]];
-		return slope;
+				gradient[i] *= a == i ? basis.axes[p][a].gradient[at[a]] : basis.axes[p][a].value[at[a]];
+		return gradient;
 	}
 };
 

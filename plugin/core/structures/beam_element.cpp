@@ -23,16 +23,16 @@ EndMoments withBounds(const Mat<2>& k, const Vec<2>& trial, const std::array<int
 	EndMoments found { trial, Vec<2>::Zero(), k };
 	if (atBound[0] != 0 && atBound[1] != 0) {
 		found.moment = { atBound[0] * strength[0], atBound[1] * strength[1] };
-		found.slope.setZero();
+		found.tangent.setZero();
 	} else
 		for (int i = 0; i < 2; ++i) {
 			if (atBound[i] == 0) continue;
 			const int j     = 1 - i;
 			found.moment[i] = atBound[i] * strength[i];
 			found.moment[j] = trial[j] + k(j, i) / k(i, i) * (found.moment[i] - trial[i]);
-			found.slope     = k - k.col(i) * k.row(i) / k(i, i);
-			found.slope.row(i).setZero();
-			found.slope.col(i).setZero();
+			found.tangent   = k - k.col(i) * k.row(i) / k(i, i);
+			found.tangent.row(i).setZero();
+			found.tangent.col(i).setZero();
 		}
 	return found;
 }
@@ -86,7 +86,7 @@ Energy<6> energyOf(const BeamPiece& piece, const BeamSection& section, const Eig
 	Energy<6> energy;
 	energy.value    = N * shape.elongation / 2 + ends.energy;
 	energy.gradient = N * r + B * ends.moment;
-	energy.hessian  = axial * r * r.transpose() + B * ends.slope * B.transpose() + N / l * z * z.transpose()
+	energy.hessian  = axial * r * r.transpose() + B * ends.tangent * B.transpose() + N / l * z * z.transpose()
 	        + ends.moment.sum() / (l * l) * (r * z.transpose() + z * r.transpose());
 	return energy;
 }

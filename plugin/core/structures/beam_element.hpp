@@ -28,7 +28,7 @@ struct BeamPiece {
 /// Moments at the ends of a piece, positive counterclockwise, and how they go with the turns of the ends.
 struct EndMoments {
 	Vec<2> moment, yielded; ///< [N m], [rad]
-	Mat<2> slope;           ///< [N m]
+	Mat<2> tangent;         ///< [N m]
 	double energy = 0;
 };
 EndMoments endMoments(const BeamPiece&, const BeamSection&, const Vec<2>& turns);

@@ -37,9 +37,9 @@ Quantity coordinate(int index, double value) { return { value, Vec6::Unit(index)
 
 /// At a place of a piece, from 0 to 1: derivatives of Hermite's functions of the turns of its ends.
 struct Hermite {
-	Vec<2> slope, curvature;
+	Vec<2> first, curvature;
 
-	explicit Hermite(double x) : slope((1 - x) * (1 - 3 * x), -x * (2 - 3 * x)), curvature(-4 + 6 * x, -2 + 6 * x) { }
+	explicit Hermite(double x) : first((1 - x) * (1 - 3 * x), -x * (2 - 3 * x)), curvature(-4 + 6 * x, -2 + 6 * x) { }
 };
 
 /// Strains and curvatures at a place.
@@ -70,7 +70,7 @@ public:
 		const double   l0 = piece_.meridian.length0, R = radius0(x);
 		const auto     ofTurns  = [&](const Vec<2>& of) { return of[0] * turns_[0] + of[1] * turns_[1]; };
 		const Quantity outwards = (1 - x) * outwards_[0] + x * outwards_[1];
-		const Quantity sine     = sineOf(angle_ + ofTurns(hermite.slope)) + Quantity { -piece_.slope0 };
+		const Quantity sine     = sineOf(angle_ + ofTurns(hermite.first)) + Quantity { -piece_.slope0 };
 		// On the axis a parallel has the curvature of the meridian.
 		const Quantity bend = (1 / l0) * ofTurns(hermite.curvature);
 		return { (1 / l0) * elongation_, (1 / R) * outwards, bend, R > 0 ? (1 / R) * sine : bend };

@@ -405,7 +405,7 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 		const Eigen::VectorXd gradient = sum.gradient.tail(own);
 		if (!(gradient.norm() > tolerance * sum.absoluteContributions.tail(own).norm())) break;
 		const Eigen::VectorXd direction = this->direction(sum);
-		const double          slope = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
+		const double          descent = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
 		Eigen::VectorXd       x = at.x;
 		EnergySum             next(0);
 		double                length = 1;
@@ -413,7 +413,7 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 			x.tail(own)           = at.x.tail(own) + length * direction;
 			next                  = energyAt(x, secants);
 			const bool isPossible = std::isfinite(next.value) && next.gradient.allFinite();
-			if (isPossible && (!secants || next.value <= sum.value + leastDescent * length * slope + roundOff)) break;
+			if (isPossible && (!secants || next.value <= sum.value + leastDescent * length * descent + roundOff)) break;
 		}
 		at.x = x, sum = std::move(next);
 	}

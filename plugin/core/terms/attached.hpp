@@ -25,11 +25,11 @@ template <int Dim, template <int> class Places> void markAttached(const Places<D
 	});
 }
 
-/// `slope`: derivative, by where the second place is, of the force on the body at the first one.
+/// `tangent`: derivative, by where the second place is, of the force on the body at the first one.
 template <int Dim, template <int> class Places>
-void addAttachedStiffness(const Places<Dim>& from, const Places<Dim>& to, const Mat<Dim>& slope, NodeMatrix<Dim>& K)
+void addAttachedStiffness(const Places<Dim>& from, const Places<Dim>& to, const Mat<Dim>& tangent, NodeMatrix<Dim>& K)
 {
-	forNodePairs<Dim>(from, to, [&](int a, int b, int code, double weight) { K.add(a, b, code, -weight * slope); });
+	forNodePairs<Dim>(from, to, [&](int a, int b, int code, double weight) { K.add(a, b, code, -weight * tangent); });
 }
 
 /// A force on the body, which therefore does not resist.

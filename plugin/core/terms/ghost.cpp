@@ -183,16 +183,16 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 	constexpr int T = GhostFace<Dim>::tangentialNodes;
 	for (const auto& face : faces) {
 		const double h = smallest * (1 << face.level());
-		Vec<Dim>     slopeJump[T]; // h times the jump of the normal derivative at each node of the face
+		Vec<Dim>     gradientJump[T]; // h times the jump of the normal derivative at each node of the face
 		for (int s = 0; s < T; ++s) {
-			slopeJump[s].setZero();
+			gradientJump[s].setZero();
 			for (int i = 0; i < 3; ++i)
-				slopeJump[s] += jump[i] * d.template segment<Dim>(Dim * face.node[i][s]);
+				gradientJump[s] += jump[i] * d.template segment<Dim>(Dim * face.node[i][s]);
 		}
 		for (int s = 0; s < T; ++s) {
 			Vec<Dim> force = Vec<Dim>::Zero();
 			for (int t = 0; t < T; ++t)
-				force += face.stiffness / (h * h) * faceMass(face, s, t, h) * slopeJump[t];
+				force += face.stiffness / (h * h) * faceMass(face, s, t, h) * gradientJump[t];
 			for (int i = 0; i < 3; ++i)
 				f.template segment<Dim>(Dim * face.node[i][s]) += jump[i] * force;
 		}

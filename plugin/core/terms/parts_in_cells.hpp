@@ -14,10 +14,10 @@ struct AxisParts {
 	AxisParts(const AxisBasis& basis, bool isInTwo)
 	{
 		if (isInTwo) { // the slopes are in proportion to the lengths of the parts, the values to their squares
-			const double perLength = basis.slope[2] - basis.slope[0];
-			share[1]               = basis.slope[2] / perLength;
-			centre[0]              = 1 + basis.value[0] / basis.slope[0] * perLength;
-			centre[1]              = basis.value[2] / basis.slope[2] * perLength;
+			const double perLength = basis.gradient[2] - basis.gradient[0];
+			share[1]               = basis.gradient[2] / perLength;
+			centre[0]              = 1 + basis.value[0] / basis.gradient[0] * perLength;
+			centre[1]              = basis.value[2] / basis.gradient[2] * perLength;
 		} else
 			share[1] = 0, centre[0] = basis.value[1], centre[1] = 0.5;
 		share[0] = 1 - share[1];
@@ -50,7 +50,7 @@ struct RingParts {
 	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo, bool isRefined)
 	{
 		const double r = 1 / (hoop[0] + hoop[1] + hoop[2]);
-		size           = 1 / (isInTwo ? ring.slope[2] - ring.slope[0] : ring.slope[1]);
+		size           = 1 / (isInTwo ? ring.gradient[2] - ring.gradient[0] : ring.gradient[1]);
 		const double l = isRefined ? std::min(halfSize, size / 2) : halfSize;
 		face           = r + size * r * (hoop[0] - hoop[2]);
 		radius[0]      = isInTwo ? (face + r - l) / 2 : r;

@@ -11,21 +11,21 @@ namespace gimpm {
 namespace {
 
 /// Derivative of a piece's outward normal (times its size) by the place of each of its vertices.
-std::array<Mat<2>, 2> normalSlopes(const Surface<2>::Piece&, const std::vector<Vec<2>>&)
+std::array<Mat<2>, 2> normalDerivatives(const Surface<2>::Piece&, const std::vector<Vec<2>>&)
 {
 	const Mat<2> turn = (Mat<2>() << 0, 1, -1, 0).finished();
 	return { -turn, turn };
 }
 
-std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vector<Vec3>& x)
+std::array<Mat3, 3> normalDerivatives(const Surface<3>::Piece& piece, const std::vector<Vec3>& x)
 {
-	std::array<Mat3, 3> slopes;
+	std::array<Mat3, 3> derivatives;
 	for (int i = 0; i < 3; ++i) {
 		// n = (x2 - x1) x (x3 - x1) / 2 gives dn/dx_i w = v x w / 2.
-		const Vec3 v = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]];
-		slopes[i]    = 0.5 * (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
+		const Vec3 v   = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]];
+		derivatives[i] = 0.5 * (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
 	}
-	return slopes;
+	return derivatives;
 }
 
 constexpr double circle = 2 * M_PI;
@@ -42,7 +42,7 @@ template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& pi
 }
 
 /// The derivative of the share of vertex i of a ring by the radius of its vertex j.
-double shareSlope(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
+double weightDerivative(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
 
 /// Whether material is mostly on the outer side, half a cell away.
 template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid, int layer)
@@ -136,15 +136,15 @@ template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMa
 	if (load_.pressure == 0) return;
 	for (std::size_t p = 0; p < load_.surface.pieces.size(); ++p) {
 		if (isAcross_[p]) continue;
-		const Piece&   piece  = load_.surface.pieces[p];
-		const auto     slopes = normalSlopes(piece, places);
-		const auto     share  = shares<Dim>(piece, places, isRing_);
-		const Vec<Dim> normal = load_.surface.normal(piece, places);
+		const Piece&   piece       = load_.surface.pieces[p];
+		const auto     derivatives = normalDerivatives(piece, places);
+		const auto     share       = shares<Dim>(piece, places, isRing_);
+		const Vec<Dim> normal      = load_.surface.normal(piece, places);
 		for (int i = 0; i < Dim; ++i)
 			for (int j = 0; j < Dim; ++j) {
-				Mat<Dim> slope = share[i] * slopes[j];
-				if (isRing_) slope.col(0) += shareSlope(i, j) * normal;
-				addAttachedStiffness<Dim>(attached_[piece[i]], attached_[piece[j]], -load_.pressure * slope, K);
+				Mat<Dim> tangent = share[i] * derivatives[j];
+				if (isRing_) tangent.col(0) += weightDerivative(i, j) * normal;
+				addAttachedStiffness<Dim>(attached_[piece[i]], attached_[piece[j]], -load_.pressure * tangent, K);
 			}
 	}
 }

@@ -64,7 +64,7 @@ namespace {
 			const GimpBasis b     = gimpBasis(d.x, d.l, d.h);
 			double          value = 0, slope = 0;
 			for (int n = 0; n <= b.cells; ++n)
-				value += b.value[n], slope += b.slope[n];
+				value += b.value[n], slope += b.gradient[n];
 			EXPECT_NEAR(value, 1, 4 * precision) << d.x << " " << d.l << " " << d.h;
 			EXPECT_NEAR(slope * d.h, 0, 4 * precision) << d.x << " " << d.l << " " << d.h;
 		}
@@ -77,7 +77,7 @@ namespace {
 			double          value = 0, slope = 0;
 			for (int n = 0; n <= b.cells; ++n) {
 				value += b.value[n] * ((b.cell + n) - d.x / d.h);
-				slope += b.slope[n] * n * d.h; // whatever the distance from the origin
+				slope += b.gradient[n] * n * d.h; // whatever the distance from the origin
 			}
 			EXPECT_NEAR(value, 0, positionNoise(d)) << d.x << " " << d.l << " " << d.h;
 			EXPECT_NEAR(slope, 1, 8 * precision) << d.x << " " << d.l << " " << d.h;
@@ -96,7 +96,7 @@ namespace {
 				EXPECT_NEAR(active ? b.value[n] : 0, averagedHat(d, node), noise) << d.x << " " << d.l << " " << d.h << " node " << n;
 				const double slope = (hat(d.x + d.l - node, d.h) - hat(d.x - d.l - node, d.h)) / (2 * d.l);
 				// a smaller overlap counts as none.
-				EXPECT_NEAR(active ? b.slope[n] * d.h : 0, slope * d.h, overlapTolerance + noise)
+				EXPECT_NEAR(active ? b.gradient[n] * d.h : 0, slope * d.h, overlapTolerance + noise)
 				        << d.x << " " << d.l << " " << d.h << " node " << n;
 			}
 		}
@@ -174,8 +174,8 @@ namespace {
 		b.setLinear(2.75, 0.5, 5);
 		EXPECT_DOUBLE_EQ(b.value[0], 0.5);
 		EXPECT_DOUBLE_EQ(b.value[1], 0.5);
-		EXPECT_DOUBLE_EQ(b.slope[0], -2);
-		EXPECT_DOUBLE_EQ(b.slope[1], 2);
+		EXPECT_DOUBLE_EQ(b.gradient[0], -2);
+		EXPECT_DOUBLE_EQ(b.gradient[1], 2);
 	}
 
 	TEST(LinearBasis, PointOnAFaceBelongsToTheLowerCell)

@@ -141,8 +141,8 @@ namespace {
 				EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
 				Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
 				for (int i = 0; i < d.size(); ++i)
-					if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / (2 * e);
-				return (reduced(K, system.dofs, &beside) * free - slope).norm() / slope.norm();
+					if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], tangent[n] = (plus[i] - minus[i]) / (2 * e);
+				return (reduced(K, system.dofs, &beside) * free - tangent).norm() / tangent.norm();
 			};
 			ASSERT_FALSE(system.evaluate(d + e * way, plus, nullptr));
 			ASSERT_FALSE(system.evaluate(d - e * way, minus, nullptr));

@@ -48,20 +48,20 @@ namespace {
 
 		Force at(const Places& x, double friction, double cap = 1e9, double closed = 0) const
 		{
-			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, closed, 1e-9, PairSlope::exact);
+			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, closed, 1e-9, PairJacobian::exact);
 			EXPECT_TRUE(found) << "the place is behind the piece";
 			return found.value_or(Force());
 		}
-		void compareSlope(double friction, double cap = 1e9, double closed = 0) const
+		void compareTangent(double friction, double cap = 1e9, double closed = 0) const
 		{
 			const Force     f = at(now, friction, cap, closed);
 			Eigen::MatrixXd slope(Force::size, Force::size);
 			for (int i = 0; i < Force::size; ++i) {
 				Places plus = now, minus = now;
 				plus[i / Dim][i % Dim] += 1e-6, minus[i / Dim][i % Dim] -= 1e-6;
-				slope.col(i) = (forces(at(plus, friction, cap, closed)) - forces(at(minus, friction, cap, closed))) / 2e-6;
+				tangent.col(i) = (forces(at(plus, friction, cap, closed)) - forces(at(minus, friction, cap, closed))) / 2e-6;
 			}
-			EXPECT_LT((slope - f.slope).cwiseAbs().maxCoeff(), 1e-8 * slope.cwiseAbs().maxCoeff());
+			EXPECT_LT((tangent - f.tangent).cwiseAbs().maxCoeff(), 1e-8 * tangent.cwiseAbs().maxCoeff());
 		}
 	};
 	using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
@@ -69,12 +69,12 @@ namespace {
 
 	TYPED_TEST(BodyPairTest, DerivativesAreThoseOfTheForces)
 	{
-		this->compareSlope(0);
-		this->compareSlope(10);
+		this->compareTangent(0);
+		this->compareTangent(10);
 		EXPECT_FALSE(this->at(this->now, 10).slips);
-		this->compareSlope(.02);
+		this->compareTangent(.02);
 		EXPECT_TRUE(this->at(this->now, .02).slips);
-		this->compareSlope(10, .01);
+		this->compareTangent(10, .01);
 		EXPECT_TRUE(this->at(this->now, 10, .01).slips) << "at the cap";
 	}
 
@@ -95,18 +95,18 @@ namespace {
 				EXPECT_LE(f.tangentialForce.norm(), cap * (1 + 1e-12)) << "the limit of friction is that of the kept pressure";
 				auto apart = x;
 				apart[0] += (closed - gap + 1e-3) * Facing<Dim>(x).normal;
-				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, PairSlope::exact))
+				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, PairJacobian::exact))
 				        << "nothing pulls";
 			}
 		}
 		const double behind = Facing<Dim>(this->now).gap;
 		for (const double friction : { 0., .02, 10. })
-			this->compareSlope(friction, 1e9, std::abs(behind) + .1);
+			this->compareTangent(friction, 1e9, std::abs(behind) + .1);
 	}
 
 	TYPED_TEST(BodyPairTest, WithoutFrictionTheDerivativeIsSymmetric)
 	{
-		const auto K = this->at(this->now, 0).slope;
+		const auto K = this->at(this->now, 0).tangent;
 		EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
 	}
 
@@ -146,7 +146,7 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		auto          x   = this->start;
 		x[0] += 2 * std::abs(Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
-		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, PairSlope::exact));
+		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, PairJacobian::exact));
 	}
 
 } // namespace

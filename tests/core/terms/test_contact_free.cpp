@@ -43,14 +43,14 @@ namespace {
 			Random                random(5);
 			const Eigen::VectorXd d   = random.vector(system.nodalSize(), this->contacts.free[0].inertia.isZero(0) ? 2e-6 : 0.002),
 			                      way = random.vector(system.nodalSize(), 1);
-			Eigen::VectorXd force, above, below, slope = Eigen::VectorXd::Zero(d.size());
+			Eigen::VectorXd force, above, below, tangent = Eigen::VectorXd::Zero(d.size());
 			EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
-			K.multiplyAdd(way, slope);
-			beside.multiplyAdd(way, slope);
+			K.multiplyAdd(way, tangent);
+			beside.multiplyAdd(way, tangent);
 			EXPECT_TRUE(this->contacts.free[0].isAtRest) << this->contacts.free[0].imbalance;
 			const double step = 1e-7;
 			EXPECT_FALSE(system.evaluate(d + step * way, above, nullptr) || system.evaluate(d - step * way, below, nullptr));
-			return ((above - below) / (2 * step) - slope).norm() / slope.norm();
+			return ((above - below) / (2 * step) - tangent).norm() / tangent.norm();
 		}
 	};
 

@@ -34,10 +34,10 @@ namespace {
 	template <int Dim, class F> Mat<Dim> slopeOf(F&& f, const Vec<Dim>& x)
 	{
 		constexpr double step = 1e-6;
-		Mat<Dim>         slope;
+		Mat<Dim>         tangent;
 		for (int a = 0; a < Dim; ++a)
-			slope.col(a) = (f(x + step * Vec<Dim>::Unit(a)) - f(x - step * Vec<Dim>::Unit(a))) / (2 * step);
-		return slope;
+			tangent.col(a) = (f(x + step * Vec<Dim>::Unit(a)) - f(x - step * Vec<Dim>::Unit(a))) / (2 * step);
+		return tangent;
 	}
 
 	template <int Dim> void expectGradients(const RigidBody<Dim>& body, const Vec<Dim>& x)
@@ -49,8 +49,8 @@ namespace {
 			const double   gap  = (body.proximity(body.end, x + step, 1).gap - body.proximity(body.end, x - step, 1).gap) / 2e-6;
 			EXPECT_NEAR(gap, at.normal[a], 1e-8);
 		}
-		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return body.proximity(body.end, y, 1).normal; }, x);
-		EXPECT_LT((slope - at.slope).norm(), 1e-7 * (1 + slope.norm()));
+		const Mat<Dim> tangent = slopeOf<Dim>([&](const Vec<Dim>& y) { return body.proximity(body.end, y, 1).normal; }, x);
+		EXPECT_LT((tangent - at.normalDerivative).norm(), 1e-7 * (1 + tangent.norm()));
 	}
 
 	template <int Dim> void testGradients()
@@ -64,7 +64,7 @@ namespace {
 	/// Force on a place that was at `from`, and is at x.
 	template <int Dim> std::optional<Touch<Dim>> touchAt(const RigidBody<Dim>& body, const ContactLaw<Dim>& law, const Vec<Dim>& from, const Vec<Dim>& x)
 	{
-		const Approach<Dim> approach { body.proximity(body.end, x, 1), body.before(x) - from, body.beforeSlope(), 0.2 * Vec<Dim>::Ones() };
+		const Approach<Dim> approach { body.proximity(body.end, x, 1), body.before(x) - from, body.beforeDerivative(), 0.2 * Vec<Dim>::Ones() };
 		return touch(law, approach, 1e-9);
 	}
 
@@ -82,8 +82,8 @@ namespace {
 		EXPECT_NEAR(touched->normalForce, 1, 1e-10);
 		EXPECT_LE(touched->tangentialForce.norm(), std::min(friction, cap) + 1e-12);
 		EXPECT_NEAR(touched->tangentialForce.dot(touched->normal), 0, 1e-12);
-		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
-		EXPECT_LT((slope - touched->slope).norm(), 1e-7 * slope.norm());
+		const Mat<Dim> tangent = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
+		EXPECT_LT((tangent - touched->tangent).norm(), 1e-7 * tangent.norm());
 		return touched->slips;
 	}
 
@@ -113,8 +113,8 @@ namespace {
 		EXPECT_TRUE(rubs->slips);
 		EXPECT_NEAR(rubs->tangentialForce.norm(), 1.5, 1e-12);
 		EXPECT_NEAR(rubsLess->tangentialForce.norm(), 0.2, 1e-12);
-		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
-		EXPECT_LT((slope - rubs->slope).norm(), 1e-7 * slope.norm());
+		const Mat<Dim> tangent = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
+		EXPECT_LT((tangent - rubs->tangent).norm(), 1e-7 * tangent.norm());
 		EXPECT_FALSE(touchAt(body, near, from, x));
 	}
 
@@ -140,8 +140,8 @@ namespace {
 		EXPECT_FALSE(at(1e-8));
 		ASSERT_TRUE(at(0.5e-9));
 		EXPECT_EQ(at(0.5e-9)->force().norm(), 0);
-		EXPECT_NEAR(at(0.5e-9)->slope(1, 1), -100, 1e-9);
-		EXPECT_NEAR(at(0.5e-9)->slope(0, 0), -50, 0.1);
+		EXPECT_NEAR(at(0.5e-9)->tangent(1, 1), -100, 1e-9);
+		EXPECT_NEAR(at(0.5e-9)->tangent(0, 0), -50, 0.1);
 	}
 
 	/// Only members of a shape that belong to its kind count.

@@ -99,12 +99,12 @@ namespace {
 				Couplings                    beside;
 				system.prepare(K, &beside);
 				const Eigen::VectorXd d = Random(5).vector(system.nodalSize(), inertia > 0 ? 2e-3 : 2e-6), way = Random(6).vector(d.size());
-				Eigen::VectorXd       force, above, below, slope = Eigen::VectorXd::Zero(d.size());
+				Eigen::VectorXd       force, above, below, tangent = Eigen::VectorXd::Zero(d.size());
 				EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
-				K.multiplyAdd(way, slope);
-				beside.multiplyAdd(way, slope);
+				K.multiplyAdd(way, tangent);
+				beside.multiplyAdd(way, tangent);
 				EXPECT_FALSE(system.evaluate(d + 1e-7 * way, above, nullptr) || system.evaluate(d - 1e-7 * way, below, nullptr));
-				EXPECT_LT(((above - below) / 2e-7 - slope).norm(), 1e-6 * slope.norm()) << int(kind) << " " << inertia;
+				EXPECT_LT(((above - below) / 2e-7 - tangent).norm(), 1e-6 * tangent.norm()) << int(kind) << " " << inertia;
 			}
 	}
 

@@ -53,7 +53,7 @@ namespace {
 		Vec<Dim> G = Vec<Dim>::Ones();
 		for (int a = 0; a < Dim; ++a)
 			for (int k = 0; k < Dim; ++k)
-				G[k] *= a == k ? axes[a].slope[n[a]] : axes[a].value[n[a]];
+				G[k] *= a == k ? axes[a].gradient[n[a]] : axes[a].value[n[a]];
 		return G;
 	}
 

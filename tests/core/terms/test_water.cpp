@@ -79,7 +79,7 @@ namespace {
 					const Vec<Dim> step  = e * Vec<Dim>::Unit(a);
 					const auto     after = *water->around(x + step, half), before = *water->around(x - step, half);
 					EXPECT_NEAR((after.value - before.value) / (2 * e), p.gradient[a], 1e-4 * weight);
-					EXPECT_LT(((after.gradient - before.gradient) / (2 * e) - p.slope.col(a)).norm(), 1e-4 * weight) << x.transpose();
+					EXPECT_LT(((after.gradient - before.gradient) / (2 * e) - p.hessian.col(a)).norm(), 1e-4 * weight) << x.transpose();
 				}
 			}
 	}
@@ -96,7 +96,7 @@ namespace {
 		g[0] = -7e3, g[1] = 1e3;
 		EXPECT_NEAR(p.value, 3e3 - 6e3 * 0.63, 1e-8);
 		EXPECT_LT((p.gradient - g).norm(), 1e-8);
-		EXPECT_LT(p.slope.norm(), 1e-7);
+		EXPECT_LT(p.hessian.norm(), 1e-7);
 		EXPECT_FALSE(t->around(Vec<Dim>::Constant(4.2), half));
 		EXPECT_FALSE(t->around(Vec<Dim>::Constant(1e300), half));
 	}

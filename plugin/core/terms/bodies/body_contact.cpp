@@ -77,13 +77,13 @@ template <int Dim> bool BodyContact<Dim>::goesOn(const PairPlaces<Dim>& x) const
 {
 	const Facing<Dim> at(x);
 	for (int i = 0; i < Dim; ++i)
-		if (at.weight[i] < -beyondPiece * cellSize_ * at.slope[i].norm()) return false;
+		if (at.weight[i] < -beyondPiece * cellSize_ * at.weightGradient[i].norm()) return false;
 	return true;
 }
 
 /// Calls f with the derivatives if they are wanted.
 template <int Dim>
-auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std::function<void(const Touching&, const Slope&)>& f) const -> const Looked&
+auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairJacobian kind, const std::function<void(const Touching&, const Tangent&)>& f) const -> const Looked&
 {
 	if (!f && looked_.d.size() == d.size() && looked_.d == d) return looked_;
 	looked_.d = d, looked_.now = placesAt(d), looked_.touching.clear();
@@ -97,10 +97,10 @@ auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std
 		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_);
-		const auto            force = pairForce<Dim>(law, start, place.tangentialForce, end, place.closed, tolerance_, slope);
+		const auto            force = pairForce<Dim>(law, start, place.tangentialForce, end, place.closed, tolerance_, kind);
 		if (!force) continue;
 		looked_.touching.push_back({ place, *near, *force, end });
-		if (f) f(looked_.touching.back(), force->slope);
+		if (f) f(looked_.touching.back(), force->tangent);
 	}
 	return looked_;
 }
@@ -181,7 +181,7 @@ void BodyContact<Dim>::addForces(
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& nodes, const Slope& slope, double factor, Couplings& K) const
+template <int Dim> void BodyContact<Dim>::addTangent(const std::vector<PairNode>& nodes, const Tangent& tangent, double factor, Couplings& K) const
 {
 	using Block = Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
 	std::vector<int>            numbers;
@@ -189,9 +189,9 @@ template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& 
 	for (const PairNode& one : nodes)
 		numbers.push_back(one.node);
 	for (const PairNode& one : nodes) {
-		Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime> row = Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime>::Zero();
+		Eigen::Matrix<double, Dim, Tangent::ColsAtCompileTime> row = Eigen::Matrix<double, Dim, Tangent::ColsAtCompileTime>::Zero();
 		for (int i = 0; i <= Dim; ++i)
-			row -= factor * one.weight[i] * slope.template middleRows<Dim>(Dim * i);
+			row -= factor * one.weight[i] * tangent.template middleRows<Dim>(Dim * i);
 		K.findPlaces({ 0, one.node }, 0, numbers.data(), int(numbers.size()), places.data());
 		for (std::size_t other = 0; other < nodes.size(); ++other) {
 			if (places[other] < 0) continue;
@@ -204,7 +204,7 @@ template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& 
 
 template <int Dim>
 void BodyContact<Dim>::add(
-        const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings* K, PairSlope slopes) const
+        const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings* K, PairJacobian kind) const
 {
 	if (places_.empty()) return;
 	if (!K) {
@@ -212,16 +212,16 @@ void BodyContact<Dim>::add(
 			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, absoluteContributions);
 		return;
 	}
-	look(d, slopes, [&](const Touching& touching, const Slope& slope) {
+	look(d, kind, [&](const Touching& touching, const Tangent& tangent) {
 		const auto nodes = nodesOf(touching.place, touching.near);
 		addForces(nodes, touching.force, factor, force, absoluteContributions);
-		addSlope(nodes, slope, factor, *K);
+		addTangent(nodes, tangent, factor, *K);
 	});
 }
 
 template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
-	add(state.displacements(), system_.weight, sum.force[0], &sum.absoluteContributions[0], sum.couplings, slope());
+	add(state.displacements(), system_.weight, sum.force[0], &sum.absoluteContributions[0], sum.couplings, jacobianKind());
 	return std::nullopt;
 }
 
@@ -229,12 +229,12 @@ template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const F
 
 template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
 {
-	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr, PairSlope::none);
+	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr, PairJacobian::none);
 }
 
-template <int Dim> void BodyContact<Dim>::addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings* K) const
+template <int Dim> void BodyContact<Dim>::addWithTangent(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings* K) const
 {
-	add(d, 1, resistance, nullptr, K, isRough() ? PairSlope::symmetric : PairSlope::exact);
+	add(d, 1, resistance, nullptr, K, isRough() ? PairJacobian::symmetric : PairJacobian::exact);
 }
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const

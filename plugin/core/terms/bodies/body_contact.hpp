@@ -95,7 +95,7 @@ public:
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 	/// The same at d, with symmetric derivatives by displacements, if these are asked for.
-	void addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings*) const;
+	void addWithTangent(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings*) const;
 
 private:
 	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
@@ -137,30 +137,30 @@ private:
 		int                         node;
 		std::array<double, Dim + 1> weight;
 	};
-	using Slope = typename PairForce<Dim>::Slope;
+	using Tangent = typename PairForce<Dim>::Tangent;
 
-	void                  addPlaces(int meeting, const StepContext<Dim>&);
-	void                  findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void                  takeModuli(const StepContext<Dim>&);
-	void                  findFirst(Place&);
-	void                  keepApart(Place* begin, Place* end);
-	void                  begin(Place&);
-	int                   wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
-	Places                placesAt(const Eigen::VectorXd& d) const;
-	PairPlaces<Dim>       pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
-	PairPlaces<Dim>       pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
-	PairPlaces<Dim>       pairThen(const Place&, const Near&, const Eigen::VectorXd* d, const Places&) const;
-	const Near*           nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
-	bool                  isRough() const;
-	bool                  goesOn(const PairPlaces<Dim>&) const;
-	const Looked&         look(const Eigen::VectorXd& d, PairSlope = PairSlope::none, const std::function<void(const Touching&, const Slope&)>& = {}) const;
-	PairSlope             slope() const { return isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric; }
+	void            addPlaces(int meeting, const StepContext<Dim>&);
+	void            findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void            takeModuli(const StepContext<Dim>&);
+	void            findFirst(Place&);
+	void            keepApart(Place* begin, Place* end);
+	void            begin(Place&);
+	int             wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
+	Places          placesAt(const Eigen::VectorXd& d) const;
+	PairPlaces<Dim> pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
+	PairPlaces<Dim> pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
+	PairPlaces<Dim> pairThen(const Place&, const Near&, const Eigen::VectorXd* d, const Places&) const;
+	const Near*     nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool            isRough() const;
+	bool            goesOn(const PairPlaces<Dim>&) const;
+	const Looked& look(const Eigen::VectorXd& d, PairJacobian = PairJacobian::none, const std::function<void(const Touching&, const Tangent&)>& = {}) const;
+	PairJacobian  jacobianKind() const { return isExact_ || !isRough() ? PairJacobian::exact : PairJacobian::symmetric; }
 	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
 	void                  markNodes(const Place&, std::vector<int>& nodes) const;
-	void add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings*, PairSlope) const;
+	void add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings*, PairJacobian) const;
 	void addForces(
 	        const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const;
-	void                    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
+	void                    addTangent(const std::vector<PairNode>&, const Tangent&, double factor, Couplings&) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
 	void                    moveSurfaces(const Places& now);
 	double                  work(const Eigen::VectorXd& d) const;

@@ -25,7 +25,7 @@ template <int Dim> double squaredDistance(const Vec<Dim>& x, const Vec<Dim>& a, 
 Mat3 crossing(const Vec3& v) { return (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished(); }
 
 /// Derivatives of what Facing has by the places, side by side, in the order of these.
-template <int Dim> struct FacingSlope {
+template <int Dim> struct FacingDerivative {
 	static constexpr int size = PairForce<Dim>::size;
 	using Row                 = Eigen::Matrix<double, 1, size>;
 	using Rows                = Eigen::Matrix<double, Dim, size>;
@@ -33,26 +33,26 @@ template <int Dim> struct FacingSlope {
 	Row                       gap;
 	Rows                      normal = Rows::Zero();
 	std::array<Row, Dim>      weight;
-	std::array<Rows, Dim>     slope;
+	std::array<Rows, Dim>     weightGradient;
 	std::array<Rows, Dim - 1> along;
 
-	/// With n = normal, w = weight, b = slope: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j dx_j),
-	/// dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i = - sum
-	/// of b_j (b_i . dx_j) - n (b_i . dn).
-	FacingSlope(const Facing<Dim>& at, const PairPlaces<Dim>& x)
+	/// With n = normal, w = weight, b = weightGradient: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j
+	/// dx_j), dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i =
+	/// - sum of b_j (b_i . dx_j) - n (b_i . dn).
+	FacingDerivative(const Facing<Dim>& at, const PairPlaces<Dim>& x)
 	{
 		Rows foot = Rows::Zero(); // dx_0 - sum of w_j dx_j
 		foot.template leftCols<Dim>().setIdentity();
 		for (int j = 0; j < Dim; ++j) {
 			foot.template middleCols<Dim>(Dim * (j + 1))   = -at.weight[j] * Mat<Dim>::Identity();
-			normal.template middleCols<Dim>(Dim * (j + 1)) = -at.slope[j] * at.normal.transpose();
+			normal.template middleCols<Dim>(Dim * (j + 1)) = -at.weightGradient[j] * at.normal.transpose();
 		}
 		gap = at.normal.transpose() * foot;
 		for (int i = 0; i < Dim; ++i) {
-			weight[i] = at.slope[i].transpose() * (foot - at.gap * normal);
-			slope[i]  = -at.normal * (at.slope[i].transpose() * normal);
+			weight[i]         = at.weightGradient[i].transpose() * (foot - at.gap * normal);
+			weightGradient[i] = -at.normal * (at.weightGradient[i].transpose() * normal);
 			for (int j = 0; j < Dim; ++j)
-				slope[i].template middleCols<Dim>(Dim * (j + 1)) -= at.slope[j] * at.slope[i].transpose();
+				weightGradient[i].template middleCols<Dim>(Dim * (j + 1)) -= at.weightGradient[j] * at.weightGradient[i].transpose();
 		}
 		const Mat<Dim> across = (Mat<Dim>::Identity() - at.along[0] * at.along[0].transpose()) / (x[2] - x[1]).norm();
 		along[0].setZero();
@@ -64,24 +64,24 @@ template <int Dim> struct FacingSlope {
 
 /// Friction returned from a trial, and its derivative.
 template <int Dim> struct Rubbing {
-	Vec<Dim>                        shear = Vec<Dim>::Zero();
-	bool                            slips = false;
-	typename FacingSlope<Dim>::Rows slope = FacingSlope<Dim>::Rows::Zero();
+	Vec<Dim>                             shear   = Vec<Dim>::Zero();
+	bool                                 slips   = false;
+	typename FacingDerivative<Dim>::Rows tangent = FacingDerivative<Dim>::Rows::Zero();
 };
 
 /// Slip of the place along the matter of the piece, S = sum of (w_i - w_i at the start) x_i, and its derivative.
 template <int Dim> struct Slip {
-	Vec<Dim>                        value = Vec<Dim>::Zero();
-	typename FacingSlope<Dim>::Rows slope = FacingSlope<Dim>::Rows::Zero();
+	Vec<Dim>                             value      = Vec<Dim>::Zero();
+	typename FacingDerivative<Dim>::Rows derivative = FacingDerivative<Dim>::Rows::Zero();
 
-	Slip(const Facing<Dim>& start, const Facing<Dim>& at, const PairPlaces<Dim>& x, const FacingSlope<Dim>* d)
+	Slip(const Facing<Dim>& start, const Facing<Dim>& at, const PairPlaces<Dim>& x, const FacingDerivative<Dim>* d)
 	{
 		for (int i = 0; i < Dim; ++i) {
 			const double since = at.weight[i] - start.weight[i];
 			value += since * (x[i + 1] - x[1]);
 			if (!d) continue;
-			slope += (x[i + 1] - x[1]) * d->weight[i];
-			slope.template middleCols<Dim>(Dim * (i + 1)) += since * Mat<Dim>::Identity();
+			derivative += (x[i + 1] - x[1]) * d->weight[i];
+			derivative.template middleCols<Dim>(Dim * (i + 1)) += since * Mat<Dim>::Identity();
 		}
 	}
 };
@@ -89,28 +89,28 @@ template <int Dim> struct Slip {
 template <int Dim>
 Rubbing<Dim> rub(
         const ContactLaw<Dim>& law, const Facing<Dim>& start, const Vec<Dim>& before, double normalForce, const Facing<Dim>& at, const Slip<Dim>& slip,
-        const FacingSlope<Dim>* d, bool exactly)
+        const FacingDerivative<Dim>* d, bool exactly)
 {
 	Rubbing<Dim> r;
 	if (law.frictionCoefficient == 0 || law.cap == 0) return r;
 	if (normalForce == 0) {
-		if (d) r.slope = -law.tangentialStiffness * slip.slope;
+		if (d) r.tangent = -law.tangentialStiffness * slip.derivative;
 		return r;
 	}
 	Vec<Dim> trial = -law.tangentialStiffness * slip.value;
-	if (d) r.slope = -law.tangentialStiffness * slip.slope;
+	if (d) r.tangent = -law.tangentialStiffness * slip.derivative;
 	for (int a = 0; a + 1 < Dim; ++a) {
 		const double kept = start.along[a].dot(before);
 		trial += kept * at.along[a];
-		if (d) r.slope += kept * d->along[a];
+		if (d) r.tangent += kept * d->along[a];
 	}
 	const double limit = std::min(law.frictionCoefficient * normalForce, law.cap), size = trial.norm();
 	r.slips = size > limit;
 	r.shear = r.slips ? Vec<Dim>(limit / size * trial) : trial;
 	if (!r.slips || !d) return r;
 	const Vec<Dim> way = trial / size;
-	r.slope            = (limit / size * (r.slope - way * (way.transpose() * r.slope))).eval();
-	if (exactly && law.frictionCoefficient * normalForce < law.cap) r.slope -= law.frictionCoefficient * law.normalStiffness * way * d->gap;
+	r.tangent          = (limit / size * (r.tangent - way * (way.transpose() * r.tangent))).eval();
+	if (exactly && law.frictionCoefficient * normalForce < law.cap) r.tangent -= law.frictionCoefficient * law.normalStiffness * way * d->gap;
 	return r;
 }
 
@@ -133,12 +133,12 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 	const Mat<Dim> dual = sides.inverse();
 	const Vec<Dim> from = x[0] - x[1];
 	gap                 = normal.dot(from);
-	weight[0]           = 1, slope[0].setZero();
+	weight[0]           = 1, weightGradient[0].setZero();
 	for (int i = 1; i < Dim; ++i) {
-		slope[i]  = dual.row(i - 1).transpose();
-		weight[i] = slope[i].dot(from);
+		weightGradient[i] = dual.row(i - 1).transpose();
+		weight[i]         = weightGradient[i].dot(from);
 		weight[0] -= weight[i];
-		slope[0] -= slope[i];
+		weightGradient[0] -= weightGradient[i];
 	}
 	along[0] = (x[2] - x[1]).normalized();
 	if constexpr (Dim == 3) along[1] = normal.cross(along[0]);
@@ -149,38 +149,40 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
-        PairSlope asked)
+        PairJacobian asked)
 {
 	const Facing<Dim> at(now);
 	if (!(at.gap - closed <= tolerance)) return std::nullopt;
-	std::optional<FacingSlope<Dim>> d;
-	if (asked != PairSlope::none) d.emplace(at, now);
+	std::optional<FacingDerivative<Dim>> d;
+	if (asked != PairJacobian::none) d.emplace(at, now);
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
 	PairForce<Dim>    f;
 	f.normalForce      = std::max(0., -law.normalStiffness * (at.gap - closed));
-	const auto rubbing = rub<Dim>(law, first, before, f.normalForce, at, slip, d ? &*d : nullptr, asked == PairSlope::exact);
+	const auto rubbing = rub<Dim>(law, first, before, f.normalForce, at, slip, d ? &*d : nullptr, asked == PairJacobian::exact);
 	f.tangentialForce = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
 	const Vec<Dim> whole = f.normalForce * at.normal + f.tangentialForce;
 	f.force[0]           = whole;
 	for (int i = 0; i < Dim; ++i)
-		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.tangentialForce.dot(at.slope[i]) * at.normal;
+		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.tangentialForce.dot(at.weightGradient[i]) * at.normal;
 	if (!d) return f;
-	const typename FacingSlope<Dim>::Rows dWhole = -law.normalStiffness * at.normal * d->gap + f.normalForce * d->normal + rubbing.slope;
-	f.slope.template topRows<Dim>()              = dWhole;
+	const typename FacingDerivative<Dim>::Rows dWhole = -law.normalStiffness * at.normal * d->gap + f.normalForce * d->normal + rubbing.tangent;
+	f.tangent.template topRows<Dim>()                 = dWhole;
 	for (int i = 0; i < Dim; ++i) {
-		const double across                             = f.tangentialForce.dot(at.slope[i]);
-		f.slope.template middleRows<Dim>(Dim * (i + 1)) = -at.weight[i] * dWhole - whole * d->weight[i]
-		        + at.normal * (across * d->gap + at.gap * (at.slope[i].transpose() * rubbing.slope + f.tangentialForce.transpose() * d->slope[i]))
+		const double across                               = f.tangentialForce.dot(at.weightGradient[i]);
+		f.tangent.template middleRows<Dim>(Dim * (i + 1)) = -at.weight[i] * dWhole - whole * d->weight[i]
+		        + at.normal
+		                * (across * d->gap
+		                   + at.gap * (at.weightGradient[i].transpose() * rubbing.tangent + f.tangentialForce.transpose() * d->weightGradient[i]))
 		        + at.gap * across * d->normal;
 	}
-	if (asked == PairSlope::symmetric) f.slope = ((f.slope + f.slope.transpose()) / 2).eval();
+	if (asked == PairJacobian::symmetric) f.tangent = ((f.tangent + f.tangent.transpose()) / 2).eval();
 	return f;
 }
 
 template struct Facing<2>;
 template struct Facing<3>;
-template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, PairSlope);
-template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, PairSlope);
+template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, PairJacobian);
+template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, PairJacobian);
 
 } // namespace gimpm

@@ -16,7 +16,7 @@ template <int Dim> struct Facing {
 	double                    gap;    ///< along the normal of the piece, < 0 behind it [m]
 	Vec<Dim>                  normal; ///< of the piece, outward
 	std::array<double, Dim>   weight;
-	std::array<Vec<Dim>, Dim> slope; ///< of the weights, along the piece [1/m]
+	std::array<Vec<Dim>, Dim> weightGradient; ///< of the weights, along the piece [1/m]
 	/// Unit vectors along the piece, which turn with it: the first one along its first side.
 	std::array<Vec<Dim>, Dim - 1> along;
 };
@@ -27,7 +27,7 @@ double squaredDistance(const PairPlaces<3>&);
 
 /// Which derivative of the forces is wanted. The symmetric one leaves out what is not: that the limit of friction grows
 /// with the pressure, and small parts by the turn of the piece.
-enum class PairSlope { none, symmetric, exact };
+enum class PairJacobian { none, symmetric, exact };
 
 /// What the place and the piece do to each other, whatever grids they move with. The forces have neither resultant nor
 /// moment.
@@ -43,9 +43,9 @@ template <int Dim> struct PairAction {
 template <int Dim> struct PairForce : PairAction<Dim> {
 	static constexpr int size = Dim * (Dim + 1);
 
-	using Slope = Eigen::Matrix<double, size, size>;
+	using Tangent = Eigen::Matrix<double, size, size>;
 
-	Slope slope = Slope::Zero(); ///< of the forces by the places [N/m], if it was asked for
+	Tangent tangent = Tangent::Zero(); ///< of the forces by the places [N/m], if it was asked for
 };
 
 /// Of a penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip. `start`: the places
@@ -54,6 +54,7 @@ template <int Dim> struct PairForce : PairAction<Dim> {
 /// not pressed counts in the derivative as one that sticks: a body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance, PairSlope);
+        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
+        PairJacobian);
 
 } // namespace gimpm

@@ -292,7 +292,7 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
 		addAttachedForce<Dim>(place.pressed, system_.weight * touched.force(), sum);
-		if (sum.K) addAttachedStiffness<Dim>(place.pressed, place.pressed, system_.weight * touched.slope, *sum.K);
+		if (sum.K) addAttachedStiffness<Dim>(place.pressed, place.pressed, system_.weight * touched.tangent, *sum.K);
 	});
 	return std::nullopt;
 }

@@ -95,7 +95,7 @@ template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>
 	typename Free::Matrix K          = body.inertia;
 	const auto            increments = incrementsOf<Dim>(body.motion);
 	for (const auto& place : places)
-		K += Lever<Dim>(place).bodyByBody(place.slope) * increments;
+		K += Lever<Dim>(place).bodyByBody(place.tangent) * increments;
 	typename Free::Vector scale = Free::Vector::Ones();
 	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
 	for (int i = 0; i < Free::unknowns; ++i)
@@ -174,14 +174,14 @@ private:
 	{
 		for (auto& place : places) {
 			const Vec<Dim> n = place.normal, T = place.force - place.force.dot(n) * n;
-			if (T.isZero(0) || place.slope.isZero(0)) continue;
-			const double across = -n.dot(place.slope * n);
+			if (T.isZero(0) || place.tangent.isZero(0)) continue;
+			const double across = -n.dot(place.tangent * n);
 			double       along  = across / 20;
 			if constexpr (Dim == 3) {
 				const Vec3 beside = n.cross(T).normalized();
-				along             = std::max(0., -beside.dot(place.slope * beside));
+				along             = std::max(0., -beside.dot(place.tangent * beside));
 			}
-			place.slope = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
+			place.tangent = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
 		}
 		return places;
 	}
@@ -190,8 +190,8 @@ private:
 	{
 		Vector resists = body_.inertia.diagonal();
 		for (const auto& place : at_.places) {
-			resists.template head<Dim>().array() += place.slope.norm();
-			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.slope.norm() * size_ * size_;
+			resists.template head<Dim>().array() += place.tangent.norm();
+			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.tangent.norm() * size_ * size_;
 		}
 		auto thick = here();
 		thick.inertia += drag_ * Vector(resists).asDiagonal();

@@ -42,15 +42,15 @@ Mat3   rotationOf(const Turn<3>&);
 
 /// The force at one place, and how it depends on soil and body there.
 template <int Dim> struct PlaceOfFree {
-	Vec<Dim> arm;   ///< from the owner to the place, at the iterate [m]
-	Vec<Dim> force; ///< on the soil [N]
-	Mat<Dim> slope; ///< its derivative by the place [N/m]
-	double   gap;   ///< > 0: it does not touch [m]
+	Vec<Dim> arm;     ///< from the owner to the place, at the iterate [m]
+	Vec<Dim> force;   ///< on the soil [N]
+	Mat<Dim> tangent; ///< its derivative by the place [N/m]
+	double   gap;     ///< > 0: it does not touch [m]
 	Vec<Dim> normal;
 };
 
-/// What a force at a place has to do with the unknowns of its body: with B the displacement of the place by the
-/// body's, df = slope (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df + byPlace du + byBody dq.
+/// What a force at a place has to do with the unknowns of its body: with B the displacement of the place by the body's,
+/// df = tangent (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df + byPlace du + byBody dq.
 template <int Dim> struct Lever {
 	using Free = FreeBody<Dim>;
 	Eigen::Matrix<double, Dim, Free::unknowns> moves, turned;
@@ -60,9 +60,9 @@ template <int Dim> struct Lever {
 	explicit Lever(const PlaceOfFree<Dim>&);
 
 	/// Derivative of the force on the soil by q, and of that on the body by the place.
-	Eigen::Matrix<double, Dim, Free::unknowns> forceByBody(const Mat<Dim>& slope) const { return turned - slope * moves; }
-	Eigen::Matrix<double, Free::unknowns, Dim> bodyByPlace(const Mat<Dim>& slope) const { return moves.transpose() * slope + byPlace; }
-	typename Free::Matrix                      bodyByBody(const Mat<Dim>& slope) const { return moves.transpose() * forceByBody(slope) + byBody; }
+	Eigen::Matrix<double, Dim, Free::unknowns> forceByBody(const Mat<Dim>& tangent) const { return turned - tangent * moves; }
+	Eigen::Matrix<double, Free::unknowns, Dim> bodyByPlace(const Mat<Dim>& tangent) const { return moves.transpose() * tangent + byPlace; }
+	typename Free::Matrix                      bodyByBody(const Mat<Dim>& tangent) const { return moves.transpose() * forceByBody(tangent) + byBody; }
 };
 
 /// Finds the motion of the body; `look` puts the bodies at a motion and tells the places, all of them. False: there is

@@ -52,7 +52,7 @@ template <int Dim> PlaceOfFree<Dim> Contact<Dim>::seen(const Place& place, const
 	const auto          touched = touch(place.law, near, tolerance_);
 	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.pressed.displacement(d), near.at.normal) - owner;
 	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
-	return { arm, touched->force(), touched->slope, near.at.gap, near.at.normal };
+	return { arm, touched->force(), touched->tangent, near.at.gap, near.at.normal };
 }
 
 /// With which a turn is compared with a displacement [m].
@@ -113,12 +113,12 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 		std::map<int, AtNode<Dim>>    nodes;
 		for (const Place* place : placesOfFree(number)) {
 			all.push_back(seen(*place, system_.owners[free.owner], d));
-			if (all.back().slope.isZero(0)) continue;
+			if (all.back().tangent.isZero(0)) continue;
 			const Lever<Dim> lever(all.back());
 			for (int n = 0; n < place->pressed.nodes; ++n) {
 				AtNode<Dim>& node = nodes[place->pressed.node[n]];
-				node.forces += place->pressed.weight[n] * lever.forceByBody(all.back().slope);
-				node.moves += place->pressed.weight[n] * lever.bodyByPlace(all.back().slope);
+				node.forces += place->pressed.weight[n] * lever.forceByBody(all.back().tangent);
+				node.moves += place->pressed.weight[n] * lever.bodyByPlace(all.back().tangent);
 			}
 		}
 		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);

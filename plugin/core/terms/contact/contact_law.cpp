@@ -13,27 +13,27 @@ template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, c
 	Touch<Dim>     t;
 	t.normal      = n;
 	t.normalForce = std::max(0., -law.normalStiffness * gap);
-	if (isPressed) t.slope = -law.normalStiffness * n * n.transpose() + t.normalForce * dn;
+	if (isPressed) t.tangent = -law.normalStiffness * n * n.transpose() + t.normalForce * dn;
 	const double limit = std::min(law.frictionCoefficient * std::max(t.normalForce, law.around), law.cap);
 	if (law.frictionCoefficient == 0 || law.cap == 0) return t;
 	if (limit == 0) {
-		t.slope -= law.tangentialStiffness * P * approach.slipSlope;
+		t.tangent -= law.tangentialStiffness * P * approach.slipDerivative;
 		return t;
 	}
 	const Vec<Dim> y = approach.tangentialForce - law.tangentialStiffness * approach.slip, trial = P * y;
-	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangentialStiffness * P * approach.slipSlope;
+	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangentialStiffness * P * approach.slipDerivative;
 	const double   size   = trial.norm();
 	t.slips               = size > limit;
 	if (!t.slips) {
 		t.tangentialForce = trial;
-		t.slope += dtrial;
+		t.tangent += dtrial;
 		return t;
 	}
 	const Vec<Dim> along = trial / size;
 	t.tangentialForce    = limit * along;
-	t.slope += limit / size * (dtrial - along * (along.transpose() * dtrial));
+	t.tangent += limit / size * (dtrial - along * (along.transpose() * dtrial));
 	if (t.normalForce >= law.around && law.frictionCoefficient * t.normalForce < law.cap)
-		t.slope -= law.frictionCoefficient * law.normalStiffness * along * n.transpose();
+		t.tangent -= law.frictionCoefficient * law.normalStiffness * along * n.transpose();
 	return t;
 }
 

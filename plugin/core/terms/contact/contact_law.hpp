@@ -18,7 +18,7 @@ template <int Dim> struct ContactLaw {
 template <int Dim> struct Approach {
 	Proximity<Dim> at;              ///< at the end of the step; the gap less that which counts as none
 	Vec<Dim>       slip;            ///< relative displacement in the step [m]
-	Mat<Dim>       slipSlope;       ///< its derivative by the place
+	Mat<Dim>       slipDerivative;  ///< its derivative by the place
 	Vec<Dim>       tangentialForce; ///< at the end of the last step [N]
 };
 
@@ -27,7 +27,7 @@ template <int Dim> struct Touch {
 	Vec<Dim> normal = Vec<Dim>::Zero(), tangentialForce = Vec<Dim>::Zero();
 	double   normalForce = 0; ///< [N]
 	bool     slips       = false;
-	Mat<Dim> slope       = Mat<Dim>::Zero(); ///< derivative of the force by the place [N/m]
+	Mat<Dim> tangent     = Mat<Dim>::Zero(); ///< derivative of the force by the position [N/m]
 
 	Vec<Dim> force() const { return normalForce * normal + tangentialForce; } ///< on the soil
 };

@@ -13,7 +13,7 @@ template <int Dim> Proximity<Dim> fromBall(double radius, const Vec<Dim>& fromCe
 	const double   distance = fromCentre.norm();
 	const Vec<Dim> normal   = distance > 0 ? Vec<Dim>(fromCentre / distance) : Vec<Dim>(Vec<Dim>::Unit(Dim - 1));
 	Proximity<Dim> near { distance - radius, normal };
-	if (distance > 0) near.slope = (Mat<Dim>::Identity() - normal * normal.transpose()) / distance;
+	if (distance > 0) near.normalDerivative = (Mat<Dim>::Identity() - normal * normal.transpose()) / distance;
 	return near;
 }
 
@@ -60,7 +60,7 @@ template <int Dim> Proximity<Dim> fromCapsule(const std::array<Vec<Dim>, Dim>& c
 	Proximity<Dim> near  = fromBall<Dim>(radius, own - corners[0] - part * along);
 	// Along its axis the normal does not turn.
 	const Vec<Dim> axis = along.normalized();
-	if (part > 0 && part < 1) near.slope -= near.slope * axis * axis.transpose();
+	if (part > 0 && part < 1) near.normalDerivative -= near.normalDerivative * axis * axis.transpose();
 	return near;
 }
 
@@ -102,8 +102,8 @@ template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pos
 		near = fromCapsule<Dim>(cornersAt(shape, pose), shape.radius, own);
 	else
 		near = fromSheet<Dim>(cornersAt(shape, pose), halfThickness(), own, side);
-	near.normal = pose.rotation * near.normal;
-	near.slope  = pose.rotation * near.slope * pose.rotation.transpose();
+	near.normal           = pose.rotation * near.normal;
+	near.normalDerivative = pose.rotation * near.normalDerivative * pose.rotation.transpose();
 	return near;
 }
 

@@ -47,10 +47,10 @@ Vec3   normalOf(const std::array<Vec3, 3>& corners);
 
 /// Of a place from a body.
 template <int Dim> struct Proximity {
-	double   gap    = 0;                                        ///< distance to the surface, < 0 inside [m]
-	Vec<Dim> normal = Vec<Dim>::Zero();                         ///< unit, out of the body
-	Mat<Dim> slope  = Mat<Dim>::Zero();                         ///< derivative of the normal by the place [1/m]
-	double   beside = -std::numeric_limits<double>::infinity(); ///< how far the foot of the normal is beside the edge of a sheet, < 0 on it [m]
+	double   gap              = 0;                                        ///< distance to the surface, < 0 inside [m]
+	Vec<Dim> normal           = Vec<Dim>::Zero();                         ///< unit, out of the body
+	Mat<Dim> normalDerivative = Mat<Dim>::Zero();                         ///< by the position [1/m]
+	double   beside           = -std::numeric_limits<double>::infinity(); ///< how far the foot of the normal is beside the edge of a sheet, < 0 on it [m]
 };
 
 template <int Dim> struct RigidBody {
@@ -101,7 +101,7 @@ template <int Dim> struct RigidBody {
 
 	/// How far it would move what is at x at the beginning [m].
 	Vec<Dim> carried(const Vec<Dim>& x) const;
-	Mat<Dim> beforeSlope() const { return begin.rotation * end.rotation.transpose(); }
+	Mat<Dim> beforeDerivative() const { return begin.rotation * end.rotation.transpose(); }
 
 	/// Angle times axis by which it turns in the step [rad]; in the plane zero, as no axis lies in it.
 	Vec<Dim> spin() const;

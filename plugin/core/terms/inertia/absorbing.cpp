@@ -165,7 +165,7 @@ template <int Dim> void Absorption<Dim>::mark(NodeMatrix<Dim>& K) const
 		K.markUsed(node, 0);
 }
 
-template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
+template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>& sum) const
 {
 	for (const auto& [node, dashpot] : dashpots_) {
 		const Vec<Dim> drag = dashpot.drag.cwiseProduct(v.template segment<Dim>(Dim * node)), push = 2 * dashpot.drag.cwiseProduct(boundary_.incoming);
@@ -174,7 +174,7 @@ template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double sl
 			sum.absoluteContributions->template segment<Dim>(Dim * node) += drag.cwiseAbs() + push.cwiseAbs() + dashpot.borne.cwiseAbs();
 		if (sum.K && sum.K->keeps(node))
 			for (int a = 0; a < Dim; ++a)
-				sum.K->at(node, 0)[a * (Dim + 1)] += slope * dashpot.drag[a];
+				sum.K->at(node, 0)[a * (Dim + 1)] += velocityDerivative * dashpot.drag[a];
 	}
 }
 

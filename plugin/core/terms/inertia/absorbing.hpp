@@ -31,7 +31,7 @@ public:
 	Absorption(AbsorbingBoundary<Dim>&, const std::vector<Material>&, const std::vector<double>& masses, const StepContext<Dim>&);
 
 	void        mark(NodeMatrix<Dim>&) const override;
-	void        add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const override;
+	void        add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	bool        addDiagonal(Eigen::VectorXd& drag) const override;
 	void        addBorne(Eigen::VectorXd& force) const override;

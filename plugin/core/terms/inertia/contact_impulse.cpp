@@ -69,7 +69,7 @@ ContactImpulse<Dim>::ContactImpulse(const BodyContact<Dim>& contact, const Nodal
 template <int Dim> auto ContactImpulse<Dim>::at(Eigen::VectorXd velocity, const Eigen::VectorXd& free, Couplings* K) const -> Iterate
 {
 	Eigen::VectorXd resistance = -known_;
-	contact_.addWithSlopes(duration_ * velocity, resistance, K);
+	contact_.addWithTangent(duration_ * velocity, resistance, K);
 	Iterate now { std::move(velocity), -duration_ * resistance, {}, 0 };
 	now.rest = mass_ * (now.velocity - free) - now.impulse;
 	now.size = impulseTolerance * duration_ * (resistance + known_).norm() + roundOff * (mass_ * free).norm();

@@ -14,8 +14,8 @@ public:
 	/// Marks the blocks that add() writes.
 	virtual void mark(NodeMatrix<Dim>&) const = 0;
 
-	/// Adds the force at v, C times `slope`, which is dv / dd [1/s], and absoluteContributions.
-	virtual void add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const = 0;
+	/// Adds the force at v, C times `velocityDerivative`, which is dv / dd [1/s], and absoluteContributions.
+	virtual void add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>&) const = 0;
 
 	/// Adds the force at the velocities with which the step begins; where points are divided it is right at the
 	/// nodes of this process, as that of add().

@@ -76,13 +76,13 @@ template <int Dim> Vec<Dim> EdgeDrag<Dim>::forceAt(std::size_t v, const Vec<Dim>
 	return edge_.drag[v] * (ground.velocity[v] - velocity) + ground.force[v] + edge_.borne[v];
 }
 
-template <int Dim> void EdgeDrag<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
+template <int Dim> void EdgeDrag<Dim>::add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>& sum) const
 {
 	for (std::size_t i = 0; i < attached_.size() && edge_.acts; ++i) {
 		const auto&    at       = attached_[i];
 		const Vec<Dim> velocity = at.displacement(v), force = forceAt(i, velocity, edge_.now);
 		addAttachedForce<Dim>(at, force, { sum.force });
-		if (sum.K) addAttachedStiffness<Dim>(at, at, -slope * edge_.drag[i], *sum.K);
+		if (sum.K) addAttachedStiffness<Dim>(at, at, -velocityDerivative * edge_.drag[i], *sum.K);
 		if (!sum.absoluteContributions) continue;
 		const Vec<Dim> size = (edge_.drag[i] * velocity).cwiseAbs() + (edge_.drag[i] * edge_.now.velocity[i]).cwiseAbs() + edge_.now.force[i].cwiseAbs()
 		        + edge_.borne[i].cwiseAbs();

@@ -42,7 +42,7 @@ public:
 	EdgeDrag(GroundEdge<Dim>&, const StepContext<Dim>&);
 
 	void        mark(NodeMatrix<Dim>&) const override;
-	void        add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const override;
+	void        add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	void        addBorne(Eigen::VectorXd& force) const override;
 	std::string obstacle() const override { return obstacle_; }

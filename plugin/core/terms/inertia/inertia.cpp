@@ -231,9 +231,9 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	if (extent_) force += ofExtent(a);
 	sum.force += force;
 	if (sum.absoluteContributions) *sum.absoluteContributions += force.cwiseAbs();
-	const double slope = ofEnd / (scheme.beta * motion_.duration * motion_.duration);
-	if (sum.K) mass_.addTo(*sum.K, slope);
-	if (sum.K && extent_) extent_->addTo(*sum.K, slope);
+	const double massFactor = ofEnd / (scheme.beta * motion_.duration * motion_.duration);
+	if (sum.K) mass_.addTo(*sum.K, massFactor);
+	if (sum.K && extent_) extent_->addTo(*sum.K, massFactor);
 	if (damping_.empty()) return std::nullopt;
 	const Eigen::VectorXd v = velocityAt(d);
 	for (const auto& each : damping_)

@@ -31,7 +31,7 @@ template <int Dim> void RayleighDamping<Dim>::mark(NodeMatrix<Dim>& K) const
 			if (C_.used(a, code)) K.markUsed(a, code);
 }
 
-template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>& sum) const
+template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>& sum) const
 {
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
 	C_.multiplyAdd(v, force);
@@ -41,8 +41,8 @@ template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, doub
 	for (int a = 0; a < C_.nodes(); ++a)
 		for (int code = 0; code < NodeMatrix<Dim>::codes; ++code)
 			for (int i = 0; i < NodeMatrix<Dim>::block && C_.used(a, code) && sum.K->keeps(a); ++i) {
-				sum.K->at(a, code)[i] += slope * C_.at(a, code)[i];
-				if (!C_.isSymmetric()) sum.K->skewAt(a, code)[i] += slope * C_.skewAt(a, code)[i];
+				sum.K->at(a, code)[i] += velocityDerivative * C_.at(a, code)[i];
+				if (!C_.isSymmetric()) sum.K->skewAt(a, code)[i] += velocityDerivative * C_.skewAt(a, code)[i];
 			}
 }
 

@@ -20,7 +20,7 @@ public:
 	RayleighDamping(Rayleigh&, const std::vector<Material>&, bool fBar, const std::vector<double>& masses, const StepContext<Dim>&);
 
 	void        mark(NodeMatrix<Dim>&) const override;
-	void        add(const Eigen::VectorXd& v, double slope, const AssembledTerms<Dim>&) const override;
+	void        add(const Eigen::VectorXd& v, double velocityDerivative, const AssembledTerms<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override { C_.multiplyAdd(v, force); }
 	bool        isSymmetric() const override { return C_.isSymmetric(); }
 	std::string obstacle() const override { return obstacle_; }

@@ -49,11 +49,11 @@ template <int Dim> EvenDilation<Dim> evenIn(const CellCorners<Dim>& corners, con
 {
 	EvenDilation<Dim> even;
 	for (int b = 0; b < Dim; ++b) {
-		double slope = 0; // of the dilation along b
+		double gradient = 0; // of the dilation along b
 		for (int a = 0; a < Dim; ++a)
-			if (a != b) slope += corners.mixed(a, a, b, Vec<Dim>::Constant(0.5) + part.away / 2);
-		even.shift[b]  = -slope * part.square(b);
-		even.growth[b] = -slope * part.away[b];
+			if (a != b) gradient += corners.mixed(a, a, b, Vec<Dim>::Constant(0.5) + part.away / 2);
+		even.shift[b]  = -gradient * part.square(b);
+		even.growth[b] = -gradient * part.away[b];
 	}
 	return even;
 }
@@ -104,10 +104,10 @@ template <int Dim> double ratioOf(const Patch<Dim>& patch, const StepPoints<Dim>
 			at[a] = rest % patch.nodesAlong(a);
 		const Vec<Dim> u = d.template segment<Dim>(Dim * patch.node[n]);
 		for (int j = 0; j < Dim; ++j) {
-			double slope = 1;
+			double gradient = 1;
 			for (int a = 0; a < Dim; ++a)
-				slope *= (a == j ? points.centres[i][a].slope : points.centres[i][a].value)[at[a]];
-			F.col(j) += slope * u;
+				gradient *= (a == j ? points.centres[i][a].gradient : points.centres[i][a].value)[at[a]];
+			F.col(j) += gradient * u;
 		}
 		if (!points.hoopCentres.empty()) hoop += points.hoopCentres[i][at[0]] * points.centres[i][1].value[at[1]] * u[0];
 	}

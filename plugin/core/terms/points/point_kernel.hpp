@@ -37,11 +37,11 @@ template <int Dim, int Span> struct PatchNodes {
 	static constexpr int rowAlong(int row, int axis) { return along(row * inRow, axis); }
 
 	/// Product of the values of all axes but x, with the slope instead of the value for one of them (or for none).
-	GIMPM_INLINE static double rowFactor(const PointBasis<Dim>& axes, int row, int sloped)
+	GIMPM_INLINE static double rowFactor(const PointBasis<Dim>& axes, int row, int derived)
 	{
 		double product = 1;
 		for (int a = 1; a < Dim; ++a)
-			product *= (a == sloped ? axes[a].slope : axes[a].value)[rowAlong(row, a)];
+			product *= (a == derived ? axes[a].gradient : axes[a].value)[rowAlong(row, a)];
 		return product;
 	}
 };
@@ -137,14 +137,14 @@ template <int Axes, int Dim, int Span, class At, class Keep>
 GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const AxisValues* hoop, const PatchVectors<Dim, Span>& u, At&& basisAt, Keep&& keep)
 {
 	using Nodes       = PatchNodes<Dim, Span>;
-	const Lanes value = loadLanes(axes[0].value), slope = loadLanes(axes[0].slope);
+	const Lanes value = loadLanes(axes[0].value), derivative = loadLanes(axes[0].gradient);
 	Lanes       gradient[Dim][Axes];
 	for (auto& row : gradient)
 		for (auto& lanes : row)
 			lanes = Lanes(0);
 	for (int r = 0; r < Nodes::rows; ++r) {
 		for (int j = 0; j < Dim; ++j) {
-			const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
+			const Lanes g = (j == 0 ? derivative : value) * Lanes(Nodes::rowFactor(axes, r, j));
 			// The next row begins where the nodes of this one end.
 			storeLanes(basisAt(j) + r * Nodes::inRow, g);
 			for (int i = 0; i < Dim; ++i)

@@ -33,8 +33,8 @@ public:
 	{
 		double upper[Dim];
 		for (int a = 0; a < Dim; ++a) {
-			const auto& slope = basis_.axes[i][a].slope; // of the outer functions, in proportion to the lengths
-			upper[a]          = patch.span >> a & 1 ? slope[2] / (slope[2] - slope[0]) : 0;
+			const auto& gradient = basis_.axes[i][a].gradient; // of the outer functions, in proportion to the lengths
+			upper[a]             = patch.span >> a & 1 ? gradient[2] / (gradient[2] - gradient[0]) : 0;
 		}
 		Part part { patch.reached, {}, volume };
 		for (int c = 0; c < windowCells<Dim>; ++c) {

@@ -237,17 +237,17 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 		for (auto patch = basis_.patches.begin() + first; patch != basis_.patches.begin() + last; ++patch)
 			for (int i = patch->first; i < patch->first + patch->count; ++i) {
 				const PointFunctions<Dim> f(basis_, i, *patch);
-				const PorePoint&          point = points_[basis_.order[i]];
-				const double              flow  = water_.duration * point.volume * point.pores->at(point.ratio).value;
-				double                    slope = 0, steepness[windowNodes<Dim>];
+				const PorePoint&          point    = points_[basis_.order[i]];
+				const double              flow     = water_.duration * point.volume * point.pores->at(point.ratio).value;
+				double                    gradient = 0, steepness[windowNodes<Dim>];
 				for (int n = 0; n < f.count; ++n) {
 					steepness[n] = f.gradient[n].norm();
-					if (patch->node[n] >= 0) slope += steepness[n] * std::abs(P[patch->node[n]]);
+					if (patch->node[n] >= 0) gradient += steepness[n] * std::abs(P[patch->node[n]]);
 				}
 				for (int n = 0; n < f.count; ++n)
 					if (patch->node[n] >= 0)
 						absoluteContributions[field][patch->node[n]]
-						        += roundOff * (flow * slope * steepness[n] + point.volume * f.value[n]);
+						        += roundOff * (flow * gradient * steepness[n] + point.volume * f.value[n]);
 			}
 	});
 	for (const Outlet& outlet : outlets_)
@@ -269,7 +269,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			if (p >= own) continue;
 			const FlowPoint<Dim> s(points_[p], patch, PointFunctions<Dim>(basis_, i, patch), d, P, water_.modulus);
 			water_.pressure[p] = s.pressure;
-			water_.flux[p]     = -s.kappa.value * s.slope;
+			water_.flux[p]     = -s.kappa.value * s.pressureGradient;
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = division_.sum(stored);

@@ -50,7 +50,7 @@ template <int Dim> struct PointFunctions {
 				value[n] *= axis.value[i];
 				hoop[n] *= a > 0 ? axis.value[i] : basis.isAxisymmetric() ? basis.hoop[p][i] : 0;
 				for (int b = 0; b < Dim; ++b)
-					gradient[n][b] *= a == b ? axis.slope[i] : axis.value[i];
+					gradient[n][b] *= a == b ? axis.gradient[i] : axis.value[i];
 			}
 		}
 	}
@@ -69,9 +69,9 @@ struct PorePoint {
 
 /// At an iterate: F is that of the step.
 template <int Dim> struct FlowPoint {
-	double              pressure = 0, J = 1, around = 1; ///< around: stretch along the circle around an axis of symmetry
-	Vec<Dim>            slope   = Vec<Dim>::Zero();      ///< of the pressure, in the present configuration
-	Mat<Dim>            F       = Mat<Dim>::Identity(), inverse;
+	double              pressure = 0, J = 1, around = 1;     ///< around: stretch along the circle around an axis of symmetry
+	Vec<Dim>            pressureGradient = Vec<Dim>::Zero(); ///< in the present configuration
+	Mat<Dim>            F                = Mat<Dim>::Identity(), inverse;
 	double              density = 1, content = 0; ///< of the water over that without pressure, and how much of it has been stored
 	Pores::Conductivity kappa {};
 
@@ -93,8 +93,8 @@ template <int Dim> struct FlowPoint {
 			for (int j = 0; j < Dim; ++j)
 				F(i, j) += grown[i][j];
 		J = F.determinant() * around, inverse = F.inverse();
-		slope   = inverse.transpose() * first;
-		content = point.coupling() * point.ratio * (J - 1);
+		pressureGradient = inverse.transpose() * first;
+		content          = point.coupling() * point.ratio * (J - 1);
 		if (std::isfinite(modulus)) {
 			density = std::exp(pressure / modulus);
 			content = density * content + point.content * std::expm1((pressure - point.pressure) / modulus);
@@ -109,7 +109,7 @@ template <int Dim> struct PresentFunctions {
 	Vec<Dim> gradient[windowNodes<Dim>]; ///< along the axes, in the present configuration
 	Vec<Dim> dilation[windowNodes<Dim>]; ///< d ln J by the displacement of a node
 	double   hoop[windowNodes<Dim>];     ///< over the stretch around the axis
-	double   along[windowNodes<Dim>];    ///< gradient along the slope of the pressure
+	double   along[windowNodes<Dim>];    ///< gradient along that of the pressure
 
 	PresentFunctions(const FlowPoint<Dim>& s, const PointFunctions<Dim>& f)
 	{
@@ -118,7 +118,7 @@ template <int Dim> struct PresentFunctions {
 			gradient[n] = dilation[n] = toPresent * f.gradient[n];
 			hoop[n]                   = f.hoop[n] / s.around;
 			dilation[n][0] += hoop[n];
-			along[n] = s.slope.dot(gradient[n]);
+			along[n] = s.pressureGradient.dot(gradient[n]);
 		}
 	}
 };

@@ -217,7 +217,7 @@ private:
 	/// What has no transpose, and the other half of what has one.
 	void addRest(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
-		const double V = point.volume * s.J, E = s.density, flow = duration_ * V * E * s.kappa.value, led = flow * (1 + s.kappa.slope);
+		const double V = point.volume * s.J, E = s.density, flow = duration_ * V * E * s.kappa.value, led = flow * (1 + s.kappa.logDerivative);
 		for (int m = 0; m < count_; ++m) {
 			const int a        = own_[m];
 			Row       products = {};
@@ -225,7 +225,7 @@ private:
 				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
 			for (int i = 0; i < Dim; ++i) {
 				addTimes(pu_[i][a], point.coupling() * V * E * at_.value[a] + led * at_.along[a], at_.dilation[i]);
-				addTimes(pu_[i][a], -flow * s.slope[i], products);
+				addTimes(pu_[i][a], -flow * s.pressureGradient[i], products);
 				addTimes(pu_[i][a], -flow * at_.gradient[i][a], at_.along);
 			}
 			addTimes(pp_[a], flow / modulus_ * at_.along[a], at_.value);

@@ -13,9 +13,9 @@ template <int Dim> struct MovedPoint {
 	const Patch<Dim>& patch;
 	int               count = 1; // of nodes
 	double            value[windowNodes<Dim>];
-	Vec<Dim>          slope[windowNodes<Dim>]; // where it is now, in the section of a ring
-	double            hoop[windowNodes<Dim>];  // dilation of the ring by its radial displacement
-	int               code[windowNodes<Dim>];  // of the place in the patch, as offset
+	Vec<Dim>          shapeGradient[windowNodes<Dim>]; // where it is now, in the section of a ring
+	double            hoop[windowNodes<Dim>];          // dilation of the ring by its radial displacement
+	int               code[windowNodes<Dim>];          // of the place in the patch, as offset
 	Vec<Dim>          displacement = Vec<Dim>::Zero();
 	double            J            = 1; // current volume over that at the start of the step
 
@@ -26,12 +26,12 @@ template <int Dim> struct MovedPoint {
 		J                      = G.determinant() * around;
 		const Mat<Dim> inverse = G.inverse().transpose();
 		for (int n = 0; n < count; ++n)
-			slope[n] = (inverse * slope[n]).eval(), hoop[n] /= around;
+			shapeGradient[n] = (inverse * shapeGradient[n]).eval(), hoop[n] /= around;
 	}
 	/// Derivative of the volume, over the volume, by the displacement of node n.
 	Vec<Dim> dilation(int n) const
 	{
-		Vec<Dim> w = slope[n];
+		Vec<Dim> w = shapeGradient[n];
 		w[0] += hoop[n];
 		return w;
 	}
@@ -46,20 +46,20 @@ private:
 		Mat<Dim> gradient = Mat<Dim>::Zero();
 		for (int n = 0; n < count; ++n) {
 			std::array<int, 3> along {};
-			value[n] = 1, slope[n].setOnes();
+			value[n] = 1, shapeGradient[n].setOnes();
 			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a) {
 				along[a]         = rest % patch.nodesAlong(a);
 				const auto& axis = basis.axes[p][a];
 				value[n] *= axis.value[along[a]];
 				for (int b = 0; b < Dim; ++b)
-					slope[n][b] *= (a == b ? axis.slope : axis.value)[along[a]];
+					shapeGradient[n][b] *= (a == b ? axis.gradient : axis.value)[along[a]];
 			}
 			code[n] = NodeMatrix<Dim>::code(along);
 			hoop[n] = basis.isAxisymmetric() ? basis.hoop[p][along[0]] * basis.axes[p][1].value[along[1]] : 0;
 			if (!isThere(n)) continue;
 			const Vec<Dim> u = d.template segment<Dim>(Dim * patch.node[n]);
 			displacement += value[n] * u;
-			gradient += u * slope[n].transpose();
+			gradient += u * shapeGradient[n].transpose();
 			stretchAround_ += hoop[n] * u[0];
 		}
 		return gradient;
@@ -105,15 +105,15 @@ template <int Dim> struct WetPoint {
 	Mat<Dim> stiffness(int n, int m) const
 	{
 		const Vec<Dim> wn = at.dilation(n), wm = at.dilation(m);
-		Mat<Dim>       K = weighs * at.value[n] * at.value[m] * p.slope;
+		Mat<Dim>       K = weighs * at.value[n] * at.value[m] * p.hessian;
 		if (follows_) K += weighs * at.value[n] * p.gradient * wm.transpose();
 		if (presses == 0) return K;
-		Mat<Dim> turn = wn * wm.transpose() - at.slope[m] * at.slope[n].transpose();
+		Mat<Dim> turn = wn * wm.transpose() - at.shapeGradient[m] * at.shapeGradient[n].transpose();
 		turn(0, 0) -= at.hoop[n] * at.hoop[m];
 		return K + presses * (valueFor(n) * turn + at.value[m] * wn * p.gradient.transpose());
 	}
 	bool isDry() const { return p.value == 0 && p.gradient.isZero(0) && !beyond; }
-	bool isStiff() const { return presses != 0 || !p.slope.isZero(0); }
+	bool isStiff() const { return presses != 0 || !p.hessian.isZero(0); }
 
 private:
 	double valueFor(int n) const { return beyond ? p.value - beyond[n] : p.value; }

@@ -8,7 +8,7 @@ namespace {
 /// The hat functions of one axis averaged over [x - l, x + l], with first and second derivatives by x.
 struct AveragedHats {
 	int                   first = 0, count = 0;
-	std::array<double, 4> value {}, slope {}, bend {};
+	std::array<double, 4> value {}, gradient {}, bend {};
 
 	AveragedHats() = default;
 	AveragedHats(double x, double l, double h) // from the grid's origin
@@ -18,9 +18,9 @@ struct AveragedHats {
 		count = std::min(int(std::floor(high)) + 2 - first, 4);
 		for (int i = 0; i < count; ++i) {
 			const double a = low - (first + i), b = high - (first + i);
-			value[i] = (integral(b) - integral(a)) / w;
-			slope[i] = (hat(b) - hat(a)) / (w * h);
-			bend[i]  = (rise(b) - rise(a)) / (w * h * h);
+			value[i]    = (integral(b) - integral(a)) / w;
+			gradient[i] = (hat(b) - hat(a)) / (w * h);
+			bend[i]     = (rise(b) - rise(a)) / (w * h * h);
 		}
 	}
 
@@ -35,14 +35,14 @@ private:
 	}
 };
 
-/// The product over the axes of values, but of slopes along the axes a and b, where they are given; along both, if they
-/// are the same, of second derivatives.
+/// The product over the axes of values, but of first derivatives along the axes a and b, where they are given; along
+/// both, if they are the same, of second derivatives.
 template <int Dim> double product(const std::array<AveragedHats, Dim>& hats, const Index<Dim>& node, int a = -1, int b = -1)
 {
 	double result = 1;
 	for (int k = 0; k < Dim; ++k) {
 		const auto& of = hats[k];
-		result *= (k == a && k == b ? of.bend : k == a || k == b ? of.slope : of.value)[node[k]];
+		result *= (k == a && k == b ? of.bend : k == a || k == b ? of.gradient : of.value)[node[k]];
 	}
 	return result;
 }
@@ -53,7 +53,7 @@ template <int Dim> void addNode(PressureAround<Dim>& sum, double pressure, const
 	for (int a = 0; a < Dim; ++a) {
 		sum.gradient[a] += pressure * product<Dim>(hats, node, a);
 		for (int b = 0; b < Dim; ++b)
-			sum.slope(a, b) += pressure * product<Dim>(hats, node, a, b);
+			sum.hessian(a, b) += pressure * product<Dim>(hats, node, a, b);
 	}
 }
 
@@ -70,7 +70,7 @@ template <int Dim> std::optional<PressureAround<Dim>> StillWater<Dim>::around(co
 	const double wet     = isUnder ? 2 * l : depth + l;
 	p.value              = weight_ * (isUnder ? depth : wet * wet / (4 * l));
 	p.gradient[axis_]    = -up_ * weight_ * wet / (2 * l);
-	if (!isUnder) p.slope(axis_, axis_) = weight_ / (2 * l);
+	if (!isUnder) p.hessian(axis_, axis_) = weight_ / (2 * l);
 	return p;
 }
 

@@ -10,7 +10,7 @@ namespace gimpm {
 template <int Dim> struct PressureAround {
 	double   value    = 0;                ///< [Pa]
 	Vec<Dim> gradient = Vec<Dim>::Zero(); ///< [Pa/m]
-	Mat<Dim> slope    = Mat<Dim>::Zero(); ///< of the gradient [Pa/m2], symmetric
+	Mat<Dim> hessian  = Mat<Dim>::Zero(); ///< derivative of the gradient [Pa/m2], symmetric
 };
 
 template <int Dim> class WaterPressure {
