@@ -17,8 +17,8 @@ template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 
 /// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level:
 /// cells of level l are 2^l times as large as the smallest ones, of which coordinates are numbers. A cell is named
-/// after its lowest node, and the key of a neighbour of the same level is the key plus a constant, whatever the place
-/// in the grid.
+/// after its lowest node, and the key of a neighbour of the same level is the key plus a constant, whatever the
+/// position in the grid.
 using Key = std::uint64_t;
 
 /// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that

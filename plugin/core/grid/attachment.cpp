@@ -5,14 +5,14 @@
 namespace gimpm {
 namespace {
 
-/// How far a place in cell coordinates is outside of a cell along each axis [cells].
+/// How far a position in cell coordinates is outside of a cell along each axis [cells].
 template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 {
 	const auto local = (xi - cell.template cast<double>()).array();
 	return (-local).max(local - 1).max(0.);
 }
 
-/// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the
+/// The populated cell of a level that is nearest to a position in coordinates of such cells, as the crow flies: by the
 /// worst axis alone the cells beside the nearest one would be as near as that, and the order of cells or round-off
 /// would choose. Of equally near ones the first. With the layer of its nodes.
 template <int Dim>
@@ -36,15 +36,15 @@ std::optional<std::pair<Index<Dim>, int>> nearestCell(const Vec<Dim>& xi, const 
 
 } // namespace
 
-template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& location, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
 	std::optional<Attachment<Dim>> attached;
 	Vec<Dim>                       local = Vec<Dim>::Zero();
 	double                         least = std::numeric_limits<double>::infinity();
-	if (layer == layerOfPlace) layer = grid.parting ? grid.parting->layerAt(place) : 0;
+	if (layer == layerOfPosition) layer = grid.parting ? grid.parting->layerAt(location) : 0;
 	int ofNodes = layer;
 	for (int level = grid.refinement ? grid.refinement->largest() : 0; level >= 0; --level) {
-		const Vec<Dim> xi = (place - grid.origin) / grid.size(level);
+		const Vec<Dim> xi = (location - grid.origin) / grid.size(level);
 		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
 		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level, layer);
 		if (!cell) continue;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A place on the body that moves with the nodes of the grid, as the vertex of a loaded surface does.
+// A position on the body that moves with the nodes of the grid, as the vertex of a loaded surface does.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include <optional>
 
 namespace gimpm {
 
-/// The linear functions of one populated cell, in a refined grid of a leaf, at a place in it or close to it. Unlike a
-/// material point a place is no domain: its functions are not averaged. They are one in sum and reproduce the place, so
-/// that forces on it keep resultant and moment.
+/// The linear functions of one populated cell, in a refined grid of a leaf, at a position in it or close to it. Unlike
+/// a material point a position is no domain: its functions are not averaged. They are one in sum and reproduce the
+/// position, so that forces on it keep resultant and moment.
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
@@ -17,7 +17,7 @@ template <int Dim> struct Attachment {
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
 
-	/// The functions at a place, from the lowest node on [cells of its level].
+	/// The functions at a position, from the lowest node on [cells of its level].
 	void weigh(const Vec<Dim>& local)
 	{
 		for (int n = 0; n < nodes; ++n) {
@@ -36,7 +36,7 @@ template <int Dim> struct Attachment {
 		return i;
 	}
 
-	/// Of the place, from the lowest node on [smallest cells].
+	/// Of the position, from the lowest node on [smallest cells].
 	Vec<Dim> inCell() const
 	{
 		Vec<Dim> local = Vec<Dim>::Zero();
@@ -55,14 +55,14 @@ template <int Dim> struct Attachment {
 	}
 };
 
-/// A place may be outside of the populated cells by this fraction of a cell, as surfaces do not follow the domains of
-/// the points to the last digit; the functions of the nearest populated cell are then continued.
+/// A position may be outside of the populated cells by this fraction of a cell, as surfaces do not follow the domains
+/// of the points to the last digit; the functions of the nearest populated cell are then continued.
 constexpr double attachmentTolerance = 0.25;
 
-/// The layer that points have at a place: that of its side, where a line parts the body.
-constexpr int layerOfPlace = -1;
+/// The layer that points have at a position: that of its side, where a line parts the body.
+constexpr int layerOfPosition = -1;
 
 /// To the body in a layer. None where no populated cell is near.
-template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = layerOfPlace);
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& position, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = layerOfPosition);
 
 } // namespace gimpm

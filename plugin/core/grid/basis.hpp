@@ -65,7 +65,7 @@ struct AxisBasis {
 	}
 
 	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its middle from the
-	/// axis: each place counts with its own distance (Nairn and Guilkey 2015). So a uniform stress is in balance
+	/// axis: each position counts with its own distance (Nairn and Guilkey 2015). So a uniform stress is in balance
 	/// wherever domains lie in the cells. Linear fields have their values at the centre of the ring, r + l^2 / 3r.
 	void setRing(double x, double r, double l, double h, const AxisCells& cells)
 	{

@@ -33,8 +33,8 @@ template <int Dim> struct HeldBox {
 	bool covers(int node, int axis) const
 	{
 		if (period[axis] == 0) return lower[axis] <= node && node <= upper[axis];
-		const int place = ((node % period[axis]) + period[axis]) % period[axis];
-		return (lower[axis] <= place && place <= upper[axis]) || (place == 0 && upper[axis] == period[axis]);
+		const int position = ((node % period[axis]) + period[axis]) % period[axis];
+		return (lower[axis] <= position && position <= upper[axis]) || (position == 0 && upper[axis] == period[axis]);
 	}
 	bool contains(const Index<Dim>& node) const
 	{

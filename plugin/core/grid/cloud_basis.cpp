@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/cloud_basis.hpp"
-#include "core/grid/place.hpp"
+#include "core/grid/point_order.hpp"
 #include "core/grid/tile_order.hpp"
 #include <algorithm>
 
@@ -33,19 +33,19 @@ template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 			}
 }
 
-/// From sorted places.
-template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, CloudBasis<Dim>& b)
+/// From sorted positions.
+template <int Dim> void makePatches(const std::vector<PointOrder<Dim>>& orders, CloudBasis<Dim>& b)
 {
-	b.order.resize(places.size());
-	for (int i = 0; i < int(places.size()); ++i) {
-		const auto& place = places[i];
-		if (i == 0 || !place.samePatch(places[i - 1])) {
-			b.patches.push_back({ TileOrder<Dim>::cell(place.order), place.span(), place.cells(), i, 0, {}, {} });
+	b.order.resize(orders.size());
+	for (int i = 0; i < int(orders.size()); ++i) {
+		const auto& order = orders[i];
+		if (i == 0 || !order.samePatch(orders[i - 1])) {
+			b.patches.push_back({ TileOrder<Dim>::cell(order.order), order.span(), order.cells(), i, 0, {}, {} });
 			b.patches.back().node.fill(-1);
 			b.patches.back().reached.fill(-1);
 		}
 		++b.patches.back().count;
-		b.order[i] = place.point;
+		b.order[i] = order.point;
 	}
 }
 
@@ -188,7 +188,7 @@ template <int Dim, class CellFor> void numberPatches(CloudBasis<Dim>& b, const G
 			if (patch.cells >> c & 1)
 				patch.reached[c]
 				        = positionNear(lastCell[c], b.cells, cellFor(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
-		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
+		forPatchNodes(patch, [&](int local, Key key, int order) { patch.node[local] = positionNear(lastNode[order], b.nodes, grid.first(key)); });
 	}
 }
 
@@ -214,8 +214,8 @@ template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 	b.colours.resize(coloursOf(grid));
 	const auto order = [&](int patch) { return TileOrder<Dim>::of(b.patches[patch].cell); };
 	for (int first = 0, last = 0; first < int(b.patches.size()); first = last) {
-		const Key place = order(first);
-		while (last < int(b.patches.size()) && TileOrder<Dim>::tile(order(last)) == TileOrder<Dim>::tile(place))
+		const Key firstOrder = order(first);
+		while (last < int(b.patches.size()) && TileOrder<Dim>::tile(order(last)) == TileOrder<Dim>::tile(firstOrder))
 			++last;
 		b.colours[colourOf(b.patches[first].cell, grid)].push_back({ first, last });
 	}
@@ -226,15 +226,15 @@ template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 template <int Dim>
 CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, const Division& division)
 {
-	CloudBasis<Dim>         b;
-	std::vector<Place<Dim>> places(cloud.size());
-	double                  hidden = 0;
+	CloudBasis<Dim>              b;
+	std::vector<PointOrder<Dim>> orders(cloud.size());
+	double                       hidden = 0;
 #pragma omp parallel for reduction(max : hidden)
 	for (int p = 0; p < int(cloud.size()); ++p)
-		places[p] = place(cloud, p, grid, basis, boundary, hidden);
+		orders[p] = pointOrder(cloud, p, grid, basis, boundary, hidden);
 	b.largestWallOverlap = hidden;
-	std::sort(places.begin(), places.end());
-	makePatches(places, b);
+	std::sort(orders.begin(), orders.end());
+	makePatches(orders, b);
 	fillAxes(cloud, grid, basis, b);
 	numberNodes(b, grid, division);
 	colourPatches(b, grid);

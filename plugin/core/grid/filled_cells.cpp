@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/filled_cells.hpp"
-#include "core/grid/place.hpp"
+#include "core/grid/point_order.hpp"
 #include <algorithm>
 
 namespace gimpm {

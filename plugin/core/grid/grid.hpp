@@ -16,8 +16,8 @@ inline int position(const std::vector<Key>& sorted, Key key) { return int(std::l
 /// Where a key stands among sorted ones; -1: it is not there.
 inline int find(const std::vector<Key>& sorted, Key key)
 {
-	const int place = position(sorted, key);
-	return place < int(sorted.size()) && sorted[place] == key ? place : -1;
+	const int index = position(sorted, key);
+	return index < int(sorted.size()) && sorted[index] == key ? index : -1;
 }
 
 template <int Dim> class Refinement;

@@ -5,37 +5,38 @@
 namespace gimpm {
 namespace {
 
-/// Places by the cells that the middles of near points may be in, of the largest cells.
-template <int Dim> class PlacesByCell {
+/// Positions by the cells that the middles of near points may be in, of the largest cells.
+template <int Dim> class PositionsByCell {
 public:
-	PlacesByCell(const std::vector<Vec<Dim>>& places, const Grid<Dim>& grid)
+	PositionsByCell(const std::vector<Vec<Dim>>& positions, const Grid<Dim>& grid)
 	        : grid_(grid)
 	        , step_(1 << (grid.refinement ? grid.refinement->largest() : 0))
 	        , low_(Vec<Dim>::Constant(std::numeric_limits<double>::infinity()))
 	        , high_(-low_)
 	{
-		for (std::size_t i = 0; i < places.size(); ++i) {
-			const Index<Dim> own = cell(places[i]);
+		for (std::size_t i = 0; i < positions.size(); ++i) {
+			const Index<Dim> own = cell(positions[i]);
 			for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
 				Index<Dim> near = own;
 				for (int a = 0, rest = n; a < Dim; ++a, rest /= 3)
 					near[a] += step_ * (rest % 3 - 1);
 				near_.emplace_back(Grid<Dim>::key(grid.first(near)), int(i));
 			}
-			low_ = low_.cwiseMin(places[i]), high_ = high_.cwiseMax(places[i]);
+			low_ = low_.cwiseMin(positions[i]), high_ = high_.cwiseMax(positions[i]);
 		}
 		std::sort(near_.begin(), near_.end());
 		const Vec<Dim> farthest = Vec<Dim>::Constant(2 * grid.cellSize * step_);
 		low_ -= farthest, high_ += farthest;
 	}
 
-	/// f(number) of each place that a domain with this middle may be near.
+	/// f(number) of each position that a domain with this middle may be near.
 	template <class F> void forNear(const Vec<Dim>& middle, F&& f) const
 	{
 		if (!grid_.isPeriodic() && ((middle - low_).minCoeff() < 0 || (high_ - middle).minCoeff() < 0)) return;
 		const Key key = Grid<Dim>::key(grid_.first(cell(middle)));
-		for (auto place = std::lower_bound(near_.begin(), near_.end(), std::pair(key, 0)); place != near_.end() && place->first == key; ++place)
-			f(place->second);
+		for (auto position = std::lower_bound(near_.begin(), near_.end(), std::pair(key, 0)); position != near_.end() && position->first == key;
+		     ++position)
+			f(position->second);
 	}
 
 private:
@@ -55,16 +56,16 @@ private:
 
 template <int Dim>
 std::vector<std::int64_t> areFarFromMaterial(
-        const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, int layer)
+        const std::vector<Vec<Dim>>& positions, const std::vector<double>& reach, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, int layer)
 {
-	const PlacesByCell<Dim>   byCell(places, grid);
-	std::vector<std::int64_t> isFar(places.size(), 1);
+	const PositionsByCell<Dim> byCell(positions, grid);
+	std::vector<std::int64_t>  isFar(positions.size(), 1);
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		if (layer >= 0 && cloud.layerOf(int(p)) != layer) continue;
 		byCell.forNear(cloud.position[p], [&](int i) {
 			bool isNear = true;
 			for (int a = 0; a < Dim; ++a) {
-				const double length = grid.cellSize * grid.period[a], apart = places[i][a] - cloud.position[p][a];
+				const double length = grid.cellSize * grid.period[a], apart = positions[i][a] - cloud.position[p][a];
 				const double nearest = length > 0 ? apart - length * std::round(apart / length) : apart;
 				isNear               = isNear && std::abs(nearest) <= cloud.halfSize[p][a] + reach[i];
 			}

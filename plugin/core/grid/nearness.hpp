@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How near places are to the domains of the points.
+// How near positions are to the domains of the points.
 #pragma once
 #include "core/grid/grid.hpp"
 #include "core/grid/point_cloud.hpp"
 
 namespace gimpm {
 
-/// Of each place 1 if no domain of a layer (-1: of any) is as near along each axis, else 0. No reach may be more than
-/// half of the largest cells.
+/// Of each position 1 if no domain of a layer (-1: of any) is as near along each axis, else 0. No reach may be more
+/// than half of the largest cells.
 template <int Dim>
 std::vector<std::int64_t> areFarFromMaterial(
-        const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>&, const Grid<Dim>&, int layer = -1);
+        const std::vector<Vec<Dim>>& positions, const std::vector<double>& reach, const PointCloud<Dim>&, const Grid<Dim>&, int layer = -1);
 
 } // namespace gimpm

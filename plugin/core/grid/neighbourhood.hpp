@@ -15,7 +15,7 @@ template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& half
 /// need to know all points of their cells (`isWide`), one that is a cell further. Rising.
 template <int Dim> std::vector<int> neededBy(const Division&, Key lowest, const Grid<Dim>&, bool isWide);
 
-/// The points of this process that each of the others needs, by their places in the cloud (Division::lent).
+/// The points of this process that each of the others needs, by their positions in the cloud (Division::lent).
 template <int Dim> std::vector<std::vector<int>> neededPoints(const PointCloud<Dim>&, const Division&, const Grid<Dim>&, Basis, bool isWide);
 
 } // namespace gimpm

@@ -12,14 +12,14 @@ namespace gimpm {
 /// around the ends of the line.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its place.
+	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its position.
 	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt) : own_(std::move(own)), layerAt_(std::move(layerAt))
 	{
 		for (const Key node : own_)
 			if (layers_.empty() || layers_.back() != Grid<Dim>::layer(node)) layers_.push_back(Grid<Dim>::layer(node));
 	}
 
-	int layerAt(const Vec<Dim>& place) const { return layerAt_(place); }
+	int layerAt(const Vec<Dim>& position) const { return layerAt_(position); }
 
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 

@@ -4,7 +4,7 @@
 namespace gimpm {
 namespace {
 
-/// Coordinate of the cell of a level along one axis that holds a place, both in smallest cells.
+/// Coordinate of the cell of a level along one axis that holds a position, both in smallest cells.
 int cellAt(double x, int level) { return int(std::floor(std::ldexp(x, -level))) * (1 << level); }
 
 } // namespace

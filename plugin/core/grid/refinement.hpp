@@ -82,20 +82,20 @@ private:
 	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> halved_; // by level
 };
 
-/// Half of the cell that a place lies in [m]: domains of points there are no larger.
-template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& place)
+/// Half of the cell that a position lies in [m]: domains of points there are no larger.
+template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& position)
 {
 	if (!grid.refinement) return 0.5 * grid.cellSize;
-	const Vec<Dim> x = (place - grid.origin) / grid.cellSize;
+	const Vec<Dim> x = (position - grid.origin) / grid.cellSize;
 	if (!(x.array().abs() < Grid<Dim>::indexLimit).all()) return 0.5 * grid.cellSize; // off the grid
 	return 0.5 * grid.size(grid.refinement->levelIn(x, x));
 }
 
 /// Level of the smallest leaf that a domain lies in.
-template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& place, const Vec<Dim>& halfSize)
+template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& position, const Vec<Dim>& halfSize)
 {
 	if (!grid.refinement) return 0;
-	const Vec<Dim> x = (place - grid.origin) / grid.cellSize, l = halfSize * (1 - overlapTolerance) / grid.cellSize;
+	const Vec<Dim> x = (position - grid.origin) / grid.cellSize, l = halfSize * (1 - overlapTolerance) / grid.cellSize;
 	return grid.refinement->levelIn(x - l, x + l);
 }
 

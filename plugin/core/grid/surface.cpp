@@ -19,7 +19,7 @@ using Middles = std::map<Side, int>;
 
 template <int Dim> int sidesOf() { return Dim == 2 ? 1 : 3; }
 
-/// Divides all sides that are too long, at one of the places that would divide them into equal parts: parts of a
+/// Divides all sides that are too long, at one of the positions that would divide them into equal parts: parts of a
 /// straight line on the grid fit into its cells if the line does.
 template <int Dim> Middles divideSides(Surface<Dim>& surface, double limit)
 {

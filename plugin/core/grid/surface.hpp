@@ -16,7 +16,7 @@ Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c);
 /// millionth of a cell, or of the segment.
 std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid);
 
-/// Circumference of the ring on which a place lies, or one metre where there is no axis of symmetry.
+/// Circumference of the ring on which a position lies, or one metre where there is no axis of symmetry.
 template <int Dim> double aroundAxis(double radius, const Grid<Dim>& grid) { return grid.axisymmetric ? 2 * M_PI * radius : 1; }
 
 /// Length of the sides of a surface's pieces where they act on the grid, in cells. Nodes are then given their shares of
@@ -33,7 +33,7 @@ template <int Dim> struct Surface {
 	std::vector<Vec<Dim>> vertices0; ///< where they were at first [m]
 	std::vector<Piece>    pieces;
 
-	/// Of a piece, outward; `x` are the places of all vertices.
+	/// Of a piece, outward; `x` are the positions of all vertices.
 	Vec<Dim> normal(const Piece&, const std::vector<Vec<Dim>>& x) const;
 
 	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.

@@ -11,7 +11,7 @@ template <int Dim> class Resolver {
 public:
 	Resolver(const Refinement<Dim>& refinement, int layer) : refinement_(refinement), layer_(layer) { }
 
-	/// Adds `share` of what the place of a node depends on.
+	/// Adds `share` of what the position of a node depends on.
 	void add(const Index<Dim>& node, double share, Masters& masters) const
 	{
 		const int        level = refinement_.largestAt(node);

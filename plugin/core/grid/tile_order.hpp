@@ -26,18 +26,18 @@ template <int Dim> struct TileOrder {
 		}
 		return above << Dim * bits | (colour << Dim * highBits | tile) << Dim * widthBits | inside;
 	}
-	static Key cell(Key place)
+	static Key cell(Key position)
 	{
-		const int level   = Grid<Dim>::level(place);
-		Key       cell    = place >> Dim * bits << Dim * bits;
-		const Key colours = place >> Dim * (bits - 1), tiles = tile(place);
+		const int level   = Grid<Dim>::level(position);
+		Key       cell    = position >> Dim * bits << Dim * bits;
+		const Key colours = position >> Dim * (bits - 1), tiles = tile(position);
 		for (int a = 0; a < Dim; ++a) {
 			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
-			cell |= (along << widthBits | low(place >> a * widthBits, widthBits)) << (a * bits + level);
+			cell |= (along << widthBits | low(position >> a * widthBits, widthBits)) << (a * bits + level);
 		}
 		return cell;
 	}
-	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour, level and layer
+	static Key tile(Key position) { return position >> Dim * widthBits; } ///< with its colour, level and layer
 
 private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }

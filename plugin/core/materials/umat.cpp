@@ -38,8 +38,8 @@ UmatDoor::UmatDoor(
 
 bool UmatDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Mandel& tangent) const
 {
-	// Not known here: temperatures, fields, places, and the numbers of elements and steps.
-	constexpr double still[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, place[3] = {}, none = 0, size = 1;
+	// Not known here: temperatures, fields, positions, and the numbers of elements and steps.
+	constexpr double still[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, position[3] = {}, none = 0, size = 1;
 	constexpr int    direct = 3, shears = 3, components = 6, one = 1;
 	const double     time[2] = { step.time, step.time };
 	const int        states = scalars(), number = step.increments + 1;
@@ -52,7 +52,7 @@ bool UmatDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Mand
 		const CallOfOthers call(function_);
 		call_(t, state.scalars.data(), stiffness, energy, energy + 1, energy + 2, &heat, byTemperature, heatByStrain, &heatByTemperature, strain,
 		      increment, time, &step.duration, &none, &none, &none, &none, material_.data(), &direct, &shears, &components, &states, parameters_.data(),
-		      &count_, place, still, &shorter, &size, still, still, &one, &one, &one, &one, &one, &number, int(material_.size()));
+		      &count_, position, still, &shorter, &size, still, still, &one, &one, &one, &one, &one, &number, int(material_.size()));
 	}
 	for (int i = 0; i < 6; ++i) {
 		stress(rowOf(i), columnOf(i)) = stress(columnOf(i), rowOf(i)) = t[i];

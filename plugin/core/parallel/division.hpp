@@ -33,7 +33,7 @@ struct Division {
 		return point < own ? id[point] : point < all ? copied[point - own] : point;
 	}
 
-	/// Of a new point, behind the others; points that are not divided are numbered by their places.
+	/// Of a new point, behind the others; points that are not divided are numbered by their positions.
 	void append(std::int64_t newId)
 	{
 		if (!isWhole()) id.push_back(newId);

@@ -102,13 +102,13 @@ bool Cholesky::factorise(const Csc& K)
 bool Cholesky::factoriseSeparator(const Csc& K)
 {
 	const auto       rows = separatorRows();
-	std::vector<int> place(K.size(), -1);
+	std::vector<int> position(K.size(), -1);
 	for (int i = 0; i < rows.size(); ++i)
-		place[rows[i]] = i;
+		position[rows[i]] = i;
 	Eigen::MatrixXd left = halves_[0].product + halves_[1].product;
 	for (int i = 0; i < rows.size(); ++i)
 		for (int e = K.start[rows[i]]; e < K.start[rows[i] + 1] && K.row[e] <= rows[i]; ++e)
-			if (const int j = place[K.row[e]]; j >= 0) left(std::max(i, j), std::min(i, j)) -= K.value[e];
+			if (const int j = position[K.row[e]]; j >= 0) left(std::max(i, j), std::min(i, j)) -= K.value[e];
 	ofSeparator_.compute(left);
 	return ofSeparator_.info() == Eigen::Success;
 }

@@ -42,7 +42,7 @@ private:
 		/// Numbers in K of those of the half and then of the separator, in the order of elimination.
 		std::vector<int> rows;
 		Csc              K;             ///< of them, in the order of K
-		std::vector<int> source;        ///< of each entry, its place in K
+		std::vector<int> source;        ///< of each entry, its position in K
 		Eigen::MatrixXd  last, product; ///< L_h, and L_h L_h^T
 		Eigen::VectorXd  x;
 		bool             hasDone = false;

@@ -43,7 +43,7 @@ void Couplings::markKept(int row, int column)
 	values_.clear();
 }
 
-/// Places are given row by row, as who takes the matrix reads them.
+/// Positions are given row by row, as who takes the matrix reads them.
 void Couplings::setZero()
 {
 	std::fill(values_.begin(), values_.end(), 0.);
@@ -52,7 +52,7 @@ void Couplings::setZero()
 	for (int r = 0; r < int(rows_.size()); ++r)
 		for (Entry& entry : rows_[r]) {
 			entry.first = next;
-			next += std::size_t((*map_)[placeOf(r).field].width) * (*map_)[placeOf(entry.column).field].width;
+			next += std::size_t((*map_)[fieldNodeOf(r).field].width) * (*map_)[fieldNodeOf(entry.column).field].width;
 		}
 	values_.assign(next, 0);
 }
@@ -60,20 +60,20 @@ void Couplings::setZero()
 /// Of the values of a block that is kept.
 std::size_t Couplings::firstOf(int row, int column) const { return std::lower_bound(rows_[row].begin(), rows_[row].end(), column)->first; }
 
-void Couplings::findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const
+void Couplings::findOffsets(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* offsets) const
 {
 	const int   r       = numberOf(row);
 	const auto& entries = rows_[r];
 	auto        at      = entries.begin();
 	for (int i = 0, c = -1; i < count; ++i) {
-		places[i] = -1;
+		offsets[i] = -1;
 		if (nodes[i] < 0) continue;
 		const int before = std::exchange(c, numberOf({ field, nodes[i] }));
 		if (!keeps(r, c)) continue;
 		if (c < before) at = entries.begin();
 		while (at->column < c)
 			++at;
-		places[i] = std::ptrdiff_t(at->first);
+		offsets[i] = std::ptrdiff_t(at->first);
 	}
 }
 

@@ -36,7 +36,7 @@ public:
 
 	/// Where the blocks of one row with `count` nodes in one field begin among the values, or -1 where they are not
 	/// kept; all are marked, those with nodes < 0 left out. Fast where nodes rise. Until another block is marked.
-	void    findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const;
+	void    findOffsets(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* offsets) const;
 	double* values() { return values_.data(); }
 
 	bool isSymmetric() const { return isSymmetric_; }
@@ -55,13 +55,13 @@ public:
 	{
 		for (int r = 0; r < int(rows_.size()); ++r)
 			for (const Entry& entry : rows_[r])
-				f(placeOf(r), placeOf(entry.column), values_.data() + entry.first);
+				f(fieldNodeOf(r), fieldNodeOf(entry.column), values_.data() + entry.first);
 	}
 	/// Calls f(column, values row by row) for those in one row.
 	template <class F> void forBlocksOf(const FieldNode& row, F&& f) const
 	{
 		for (const Entry& entry : rows_[numberOf(row)])
-			f(placeOf(entry.column), values_.data() + entry.first);
+			f(fieldNodeOf(entry.column), values_.data() + entry.first);
 	}
 	/// Whether there are any between displacements.
 	bool areWithinDisplacements() const;
@@ -76,8 +76,8 @@ private:
 		bool        operator<(int c) const { return column < c; }
 	};
 
-	int         numberOf(const FieldNode& place) const { return place.field * map_->nodes() + place.node; }
-	FieldNode   placeOf(int number) const { return { number / map_->nodes(), number % map_->nodes() }; }
+	int         numberOf(const FieldNode& fieldNode) const { return fieldNode.field * map_->nodes() + fieldNode.node; }
+	FieldNode   fieldNodeOf(int number) const { return { number / map_->nodes(), number % map_->nodes() }; }
 	bool        keeps(int row, int column) const { return !isSymmetric_ || row <= column; }
 	void        markKept(int row, int column);
 	std::size_t firstOf(int row, int column) const;

@@ -6,7 +6,7 @@
 namespace gimpm {
 namespace {
 
-using Nodes = std::vector<NodePlace>::iterator;
+using Nodes = std::vector<NodePosition>::iterator;
 
 /// To eliminate s unknowns that are coupled to b others.
 double cost(double s, double b) { return s * s * s / 3 + s * s * b + s * b * b; }
@@ -28,7 +28,7 @@ double boundOf(std::array<double, 3> length, double unknownsPerNode, double reac
 	return flops + parts * cost(volume(), beside);
 }
 
-void includeIn(NodePlace& low, NodePlace& high, const NodePlace& n)
+void includeIn(NodePosition& low, NodePosition& high, const NodePosition& n)
 {
 	for (int a = 0; a < 3; ++a) {
 		low[a]  = std::min(low[a], n[a]);
@@ -44,7 +44,7 @@ public:
 	void dissect(Nodes begin, Nodes end, unsigned sides)
 	{
 		if (begin == end || flops_ > enough_) return;
-		NodePlace low = *begin, high = *begin;
+		NodePosition low = *begin, high = *begin;
 		for (Nodes n = begin; n != end; ++n)
 			includeIn(low, high, *n);
 		const double beside  = boundary(begin, end, low, high, sides);
@@ -53,8 +53,8 @@ public:
 			if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
 		if (end - begin <= 64 || high[longest] - low[longest] <= 2 * reach_) return eliminate(double(end - begin), beside);
 		const int   cut   = thinnestLayer(begin, end, longest, low[longest], high[longest]);
-		const Nodes first = std::partition(begin, end, [=](const NodePlace& n) { return n[longest] < cut; });
-		const Nodes last  = std::partition(first, end, [=](const NodePlace& n) { return n[longest] == cut; });
+		const Nodes first = std::partition(begin, end, [=](const NodePosition& n) { return n[longest] < cut; });
+		const Nodes last  = std::partition(first, end, [=](const NodePosition& n) { return n[longest] == cut; });
 		eliminate(reach_ * double(last - first), beside);
 		dissect(begin, first, sides | 2u << (2 * longest));
 		dissect(last, end, sides | 1u << (2 * longest));
@@ -81,13 +81,13 @@ private:
 	}
 
 	/// Nodes of the separators beside these.
-	double boundary(Nodes begin, Nodes end, const NodePlace& low, const NodePlace& high, unsigned sides) const
+	double boundary(Nodes begin, Nodes end, const NodePosition& low, const NodePosition& high, unsigned sides) const
 	{
 		double count = 0;
 		for (int a = 0; a < 3; ++a)
 			for (int side = 0; side < 2; ++side)
 				if (sides >> (2 * a + side) & 1)
-					count += double(std::count_if(begin, end, [&](const NodePlace& n) { return n[a] == (side ? high : low)[a]; }));
+					count += double(std::count_if(begin, end, [&](const NodePosition& n) { return n[a] == (side ? high : low)[a]; }));
 		return reach_ * count;
 	}
 	void eliminate(double nodes, double beside) { flops_ += cost(perNode_ * nodes, perNode_ * beside); }
@@ -98,11 +98,11 @@ private:
 
 } // namespace
 
-bool needsMoreFlops(std::vector<NodePlace> nodes, double unknownsPerNode, double reach, double flops)
+bool needsMoreFlops(std::vector<NodePosition> nodes, double unknownsPerNode, double reach, double flops)
 {
 	if (nodes.empty()) return false;
-	NodePlace low = nodes[0], high = nodes[0];
-	for (const NodePlace& n : nodes)
+	NodePosition low = nodes[0], high = nodes[0];
+	for (const NodePosition& n : nodes)
 		includeIn(low, high, n);
 	if (boundOf({ high[0] - low[0] + 1., high[1] - low[1] + 1., high[2] - low[2] + 1. }, unknownsPerNode, reach) <= flops) return false;
 	Dissection dissection(unknownsPerNode, reach, flops);

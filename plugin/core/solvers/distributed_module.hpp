@@ -18,7 +18,7 @@ struct DistributedRows {
 	const double* value;
 	bool          isSymmetric;
 	const double* symmetricPart; ///< values that multigrid is made of, (K + K^T) / 2 within each field; null: K
-	const double* position;      ///< a place for each node, for the rigid motions of the body; null: only translations leave it without stress
+	const double* position;      ///< a position for each node, for the rigid motions of the body; null: only translations leave it without stress
 };
 
 /// GMRES with multigrid of the symmetric part; of several fields each is done in its turn, with what those before it

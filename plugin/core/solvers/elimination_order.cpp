@@ -14,8 +14,8 @@ constexpr double leastPart = .2; ///< of the nodes on either side of a cut
 constexpr int    farthest  = 2;  ///< layers that couplings reach
 
 struct Cut {
-	int    axis = -1, place = 0; ///< its first layer above; no axis: there is no cut
-	bool   isBelow = true;       ///< the separator
+	int    axis = -1, position = 0; ///< its first layer above; no axis: there is no cut
+	bool   isBelow = true;          ///< the separator
 	double cost    = std::numeric_limits<double>::infinity();
 };
 
@@ -27,9 +27,9 @@ struct Layers {
 
 	Layers(int low, int high) : lowest(low), nodes(high - low + 1 + farthest, 0), fromBelow(nodes), fromAbove(nodes) { }
 	int  last() const { return int(nodes.size()) - farthest; }
-	void add(int place, int up, int down)
+	void add(int position, int up, int down)
 	{
-		const int layer = place - lowest;
+		const int layer = position - lowest;
 		++nodes[layer];
 		for (int i = 1; i <= up; ++i)
 			++fromBelow[layer + i];
@@ -40,12 +40,12 @@ struct Layers {
 
 class Dissection {
 public:
-	explicit Dissection(const NodeGraph& graph) : graph_(graph), side_(graph.places.size(), 0), up_(graph.places.size(), NodePlace {}), down_(up_)
+	explicit Dissection(const NodeGraph& graph) : graph_(graph), side_(graph.positions.size(), 0), up_(graph.positions.size(), NodePosition {}), down_(up_)
 	{
-		for (std::size_t a = 0; a < graph.places.size(); ++a)
+		for (std::size_t a = 0; a < graph.positions.size(); ++a)
 			for (int n = graph.start[a]; n < graph.start[a + 1]; ++n)
 				for (int axis = 0; axis < 3; ++axis) {
-					const int distance = graph.places[graph.neighbours[n]][axis] - graph.places[a][axis];
+					const int distance = graph.positions[graph.neighbours[n]][axis] - graph.positions[a][axis];
 					int&      reach    = (distance > 0 ? up_ : down_)[a][axis];
 					reach              = std::clamp(std::abs(distance), reach, farthest);
 				}
@@ -58,7 +58,7 @@ public:
 		if (cut.axis < 0) return { begin, begin };
 		const int below = ++sides_, above = ++sides_;
 		for (Nodes n = begin; n != end; ++n)
-			side_[*n] = graph_.places[*n][cut.axis] < cut.place ? below : above;
+			side_[*n] = graph_.positions[*n][cut.axis] < cut.position ? below : above;
 		const int   thin = cut.isBelow ? below : above, other = cut.isBelow ? above : below;
 		const Nodes separator = std::stable_partition(begin, end, [&](int n) { return side_[n] != thin || !isCoupledTo(other, n); });
 		const Nodes second    = std::stable_partition(begin, separator, [&](int n) { return side_[n] == below; });
@@ -78,11 +78,11 @@ private:
 	{
 		Cut best;
 		for (int axis = 0; axis < 3; ++axis) {
-			const auto place       = [&](int a, int b) { return graph_.places[a][axis] < graph_.places[b][axis]; };
-			const auto [low, high] = std::minmax_element(begin, end, place);
-			Layers layers(graph_.places[*low][axis], graph_.places[*high][axis]);
+			const auto position    = [&](int a, int b) { return graph_.positions[a][axis] < graph_.positions[b][axis]; };
+			const auto [low, high] = std::minmax_element(begin, end, position);
+			Layers layers(graph_.positions[*low][axis], graph_.positions[*high][axis]);
 			for (Nodes n = begin; n != end; ++n)
-				layers.add(graph_.places[*n][axis], up_[*n][axis], down_[*n][axis]);
+				layers.add(graph_.positions[*n][axis], up_[*n][axis], down_[*n][axis]);
 			improve(best, axis, layers, int(end - begin));
 		}
 		return best;
@@ -102,17 +102,17 @@ private:
 		}
 	}
 
-	const NodeGraph&       graph_;
-	std::vector<int>       side_; // of each node, of the last cut that it was part of
-	int                    sides_ = 0;
-	std::vector<NodePlace> up_, down_; // layers that each node's couplings reach along each axis
+	const NodeGraph&          graph_;
+	std::vector<int>          side_; // of each node, of the last cut that it was part of
+	int                       sides_ = 0;
+	std::vector<NodePosition> up_, down_; // layers that each node's couplings reach along each axis
 };
 
 } // namespace
 
 Order eliminationOrder(const NodeGraph& graph)
 {
-	Order order { std::vector<int>(graph.places.size()) };
+	Order order { std::vector<int>(graph.positions.size()) };
 	auto& nodes = order.numbers;
 	std::iota(nodes.begin(), nodes.end(), 0);
 	const auto [first, second] = Dissection(graph).order(nodes.begin(), nodes.end());

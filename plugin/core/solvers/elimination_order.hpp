@@ -7,8 +7,8 @@ namespace gimpm {
 
 /// Nodes, and which of them are coupled by an entry of the matrix.
 struct NodeGraph {
-	std::vector<NodePlace> places;
-	std::vector<int>       start, neighbours; ///< those of node a: start[a] ... start[a + 1] - 1, without itself
+	std::vector<NodePosition> positions;
+	std::vector<int>          start, neighbours; ///< those of node a: start[a] ... start[a + 1] - 1, without itself
 };
 
 /// Numbers, the first to be eliminated first. Some of them, and some that follow, are two parts which are not coupled

@@ -48,7 +48,7 @@ public:
 		startRows(out);
 		fill(out);
 		addEliminated(out);
-		if (!K_.isPeriodic()) place(out);
+		if (!K_.isPeriodic()) fieldNode(out);
 		return out;
 	}
 
@@ -65,7 +65,7 @@ private:
 		forUnknowns(node, [&](int i) { is |= dofs_.number[i] >= 0; });
 		return is;
 	}
-	bool isHeld(const FieldNode& place, int component) const { return dofs_.number[map_.at(place.field, place.node) + component] < 0; }
+	bool isHeld(const FieldNode& fieldNode, int component) const { return dofs_.number[map_.at(fieldNode.field, fieldNode.node) + component] < 0; }
 	bool isOwn(int row) const { return row >= begin_ && row < end_; }
 
 	/// Calls f(row, column, value, opposite) for the blocks in own rows; value(i, j) is K_ij, opposite(i, j) K_ji.
@@ -145,7 +145,7 @@ private:
 		const auto& columns = columns_[row_[row.node] - begin_];
 		return width_ * int(std::lower_bound(columns.begin(), columns.end(), row_[column.node]) - columns.begin()) + before_[column.field];
 	}
-	int         rowOf(const FieldNode& place, int component) const { return width_ * (row_[place.node] - begin_) + before_[place.field] + component; }
+	int rowOf(const FieldNode& fieldNode, int component) const { return width_ * (row_[fieldNode.node] - begin_) + before_[fieldNode.field] + component; }
 	static bool isSame(const FieldNode& a, const FieldNode& b) { return a.field == b.field && a.node == b.node; }
 
 	void fill(NodeRows& out) const
@@ -200,7 +200,7 @@ private:
 		return D;
 	}
 
-	void place(NodeRows& out) const
+	void fieldNode(NodeRows& out) const
 	{
 		Vec<Dim> mean = Vec<Dim>::Zero();
 		for (const int a : nodes_)

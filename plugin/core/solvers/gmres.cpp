@@ -29,22 +29,22 @@ public:
 	/// diagonal, and U.
 	explicit IncompleteLu(const GeneralCsc& K) : K_(K), value_(K.value), diagonal_(K.size())
 	{
-		std::vector<int> place(K.size(), -1); // of the entries of row c
+		std::vector<int> position(K.size(), -1); // of the entries of row c
 		for (int c = 0; c < K.size(); ++c) {
 			const int first = K.start[c], last = K.start[c + 1];
 			for (int e = first; e < last; ++e)
-				place[K.row[e]] = e;
-			if (place[c] < 0) throw NoPivot();
-			diagonal_[c] = place[c];
+				position[K.row[e]] = e;
+			if (position[c] < 0) throw NoPivot();
+			diagonal_[c] = position[c];
 			for (int e = first; e < diagonal_[c]; ++e) {
 				const int above = K.row[e];
 				value_[e] /= value_[diagonal_[above]];
 				for (int u = diagonal_[above] + 1; u < K.start[above + 1]; ++u)
-					if (const int at = place[K.row[u]]; at >= 0) value_[at] -= value_[e] * value_[u];
+					if (const int at = position[K.row[u]]; at >= 0) value_[at] -= value_[e] * value_[u];
 			}
 			if (value_[diagonal_[c]] == 0 || !std::isfinite(value_[diagonal_[c]])) throw NoPivot();
 			for (int e = first; e < last; ++e)
-				place[K.row[e]] = -1;
+				position[K.row[e]] = -1;
 		}
 	}
 	/// U^T L^T x = b, by columns.

@@ -21,7 +21,7 @@ namespace {
 /// is the one that finds singular matrices and is not slowed down by ill-conditioned ones.
 constexpr double worthwhileFlops = 1e4;
 
-/// What the places of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds,
+/// What the positions of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds,
 /// which takes longer than the decision is worth.
 constexpr double safetyFactor = 2;
 
@@ -286,7 +286,7 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 	return solve(K, b, x);
 }
 
-/// Whether a factor is worthwhile is left to the places of the nodes: an analysis would need the whole matrix in one
+/// Whether a factor is worthwhile is left to the positions of the nodes: an analysis would need the whole matrix in one
 /// process.
 LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {

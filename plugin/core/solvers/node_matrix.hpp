@@ -40,8 +40,8 @@ public:
 	/// read nor written.
 	bool keeps(int node) const { return unsigned(node) - unsigned(kept_.first) < unsigned(kept_.second - kept_.first); }
 
-	double*                 at(int node, int code) { return values_.data() + place(node, code); }
-	const double*           at(int node, int code) const { return values_.data() + place(node, code); }
+	double*                 at(int node, int code) { return values_.data() + offset(node, code); }
+	const double*           at(int node, int code) const { return values_.data() + offset(node, code); }
 	void                    markUsed(int node, int code) { used_[node] |= std::uint64_t(1) << code; }
 	bool                    used(int node, int code) const { return used_[node] >> code & 1; }
 	int                     neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
@@ -51,8 +51,8 @@ public:
 	bool                    isPeriodic() const { return isPeriodic_; }
 
 	/// Block K_ba^T - K_ab, stored like K_ab; only of a matrix that is not symmetric.
-	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
-	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
+	double*       skewAt(int node, int code) { return skew_.data() + offset(node, code); }
+	const double* skewAt(int node, int code) const { return skew_.data() + offset(node, code); }
 
 	/// Adds to K_ab, not to K_ba, of two nodes in any order; `code` is that of the offset b - a, negative where b
 	/// is the lower one. A symmetric matrix keeps only what is for the lower node's row. Of nodes without blocks
@@ -65,7 +65,7 @@ public:
 private:
 	using RowMajor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
 
-	std::size_t place(int node, int code) const { return (std::size_t(node - kept_.first) * codes + code) * block; }
+	std::size_t offset(int node, int code) const { return (std::size_t(node - kept_.first) * codes + code) * block; }
 
 	std::vector<Key>           keys_;
 	Range                      kept_ { 0, 0 };

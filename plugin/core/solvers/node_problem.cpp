@@ -90,18 +90,18 @@ public:
 	}
 	bool needsMoreFlopsPerEntry(double flops) const override
 	{
-		std::vector<NodePlace> places;
-		double                 blocks = 0;
+		std::vector<NodePosition> positions;
+		double                    blocks = 0;
 		for (const int a : freeNodes()) {
-			places.push_back(place(a));
+			positions.push_back(position(a));
 			for (int c = 0; c < K_.codes; ++c)
 				blocks += (c == 0 ? 1 : 2) * K_.used(a, c);
 		}
-		if (places.empty()) return false;
-		const double perNode = dofs_.count / double(places.size()), blocksOfNode = blocks / double(places.size());
+		if (positions.empty()) return false;
+		const double perNode = dofs_.count / double(positions.size()), blocksOfNode = blocks / double(positions.size());
 		const double reach   = std::clamp((std::pow(blocksOfNode, 1. / Dim) - 1) / 2, 1., 2.);
-		const double entries = 0.5 * (blocks + double(places.size())) * perNode * perNode;
-		return needsMoreFlops(std::move(places), perNode, reach, flops * entries);
+		const double entries = 0.5 * (blocks + double(positions.size())) * perNode * perNode;
+		return needsMoreFlops(std::move(positions), perNode, reach, flops * entries);
 	}
 	Order ordering() const override
 	{
@@ -149,7 +149,7 @@ private:
 		}
 		return nodes;
 	}
-	NodePlace place(int node) const
+	NodePosition position(int node) const
 	{
 		const auto index = Grid<Dim>::index(K_.keys()[node]);
 		return { index[0], index[1], Dim == 3 ? index[Dim - 1] : 0 };
@@ -159,7 +159,7 @@ private:
 		NodeGraph        graph;
 		std::vector<int> number(K_.nodes(), -1);
 		for (std::size_t n = 0; n < nodes.size(); ++n)
-			number[nodes[n]] = int(n), graph.places.push_back(place(nodes[n]));
+			number[nodes[n]] = int(n), graph.positions.push_back(position(nodes[n]));
 		const auto forPairs = [&](auto&& f) {
 			for (const int a : nodes)
 				for (int c = 1; c < K_.codes; ++c) {
@@ -184,9 +184,9 @@ private:
 	/// Of each node, neighbours that it is coupled to by several fields are left in the graph once.
 	static void keepOnce(NodeGraph& graph)
 	{
-		std::vector<int> seen(graph.places.size(), -1);
+		std::vector<int> seen(graph.positions.size(), -1);
 		int              end = 0;
-		for (int a = 0, first = 0; a < int(graph.places.size()); ++a) {
+		for (int a = 0, first = 0; a < int(graph.positions.size()); ++a) {
 			const int last = graph.start[a + 1];
 			for (int i = std::exchange(first, last); i < last; ++i)
 				if (const int b = graph.neighbours[i]; std::exchange(seen[b], a) != a) graph.neighbours[end++] = b;

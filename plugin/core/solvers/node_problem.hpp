@@ -46,7 +46,7 @@ struct NodeProblem {
 	virtual Unknowns                unknowns() const = 0;
 	virtual const NodeShare&        share() const    = 0; ///< of the rows
 
-	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
+	/// Whether a factor takes more operations for each entry of a triangle, by the positions of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
 
 	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries,

@@ -46,7 +46,7 @@ public:
 			fillRows(n, out, out.value, 1);
 			if (!K_.isSymmetric()) fillRows(n, out, out.symmetricPart, 0.5);
 		}
-		if (!K_.isPeriodic()) place(out);
+		if (!K_.isPeriodic()) position(out);
 		return out;
 	}
 
@@ -156,7 +156,7 @@ private:
 		}
 	}
 
-	void place(NodeRows& out) const
+	void position(NodeRows& out) const
 	{
 		Vec<Dim> mean = Vec<Dim>::Zero();
 		for (const int a : nodes_)

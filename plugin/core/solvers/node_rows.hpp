@@ -17,7 +17,7 @@ struct NodeRows {
 	std::vector<int>    dof;   ///< of each row, among all unknowns
 	std::vector<int>    start, column;
 	std::vector<double> value;
-	/// Of (K + K^T) / 2, in the same places; empty where K is symmetric. Of several fields see fieldRows().
+	/// Of (K + K^T) / 2, in the same positions; empty where K is symmetric. Of several fields see fieldRows().
 	std::vector<double> symmetricPart;
 	struct Held {
 		int    row;

@@ -99,7 +99,7 @@ template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 	});
 }
 
-/// Rows become columns. Rows of a column rise, and entries in the same place keep their order.
+/// Rows become columns. Rows of a column rise, and entries in the same position keep their order.
 Csc transposed(const Csc& K)
 {
 	Csc       out;
@@ -120,7 +120,7 @@ Csc transposed(const Csc& K)
 	return out;
 }
 
-/// Adds up entries in the same place, which are neighbours in their column.
+/// Adds up entries in the same position, which are neighbours in their column.
 void addUpEqual(Csc& K)
 {
 	int end = 0;
@@ -136,7 +136,7 @@ void addUpEqual(Csc& K)
 	K.value.resize(end);
 }
 
-/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers,
+/// In any order, and several entries in one position: nodes beyond the sides of a periodic grid have lower numbers,
 /// masters and nodes that are coupled may have any.
 template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, bool isTriangle, Csc& out)
 {
@@ -168,14 +168,14 @@ template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& d
 
 /// Of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of the column below it.
 /// Fields below the first are left out.
-void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& place, int i, Csc& out, int firstField = 0)
+void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& fieldNode, int i, Csc& out, int firstField = 0)
 {
 	const DofMap& map   = K.map();
-	const double  ofRow = K.signOf(place.field) * map[place.field].scale;
-	K.forBlocksOf(place, [&](const FieldNode& other, const double* values) {
+	const double  ofRow = K.signOf(fieldNode.field) * map[fieldNode.field].scale;
+	K.forBlocksOf(fieldNode, [&](const FieldNode& other, const double* values) {
 		if (other.field < firstField) return;
 		const int    width = map[other.field].width, first = map.at(other.field, other.node);
-		const bool   isDiagonal = other.field == place.field && other.node == place.node;
+		const bool   isDiagonal = other.field == fieldNode.field && other.node == fieldNode.node;
 		const double weight     = ofRow * map[other.field].scale;
 		for (int j = isDiagonal ? i : 0; j < width; ++j)
 			if (dofs.number[first + j] >= 0) {

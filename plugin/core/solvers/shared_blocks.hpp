@@ -37,7 +37,7 @@ private:
 	const NodeShare  share_; // of its own: multigrid goes on with it in later steps
 	Range            here_;  ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim> blocks_;
-	/// Of couplings, in the rows of own nodes, by places among those that are here.
+	/// Of couplings, in the rows of own nodes, by positions among those that are here.
 	std::vector<MatrixEntry>      entries_;
 	mutable std::map<int, Border> borders_; ///< by process
 	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here

@@ -107,8 +107,8 @@ private:
 
 /// What is below the diagonal, or above it, transposed: then it has the same pattern.
 struct Side {
-	const PlacedEntries& entries;
-	double*              values; // of the factor
+	const EntryDestinations& entries;
+	double*                  values; // of the factor
 };
 
 /// Of a symmetric matrix with one side, of another one with two, of which each takes its products with the other one.
@@ -124,7 +124,7 @@ public:
 	        , first_(L.count, -1)
 	        , next_(L.count, -1)
 	        , taken_(L.count, 0)
-	        , place_(supernode_.size())
+	        , slot_(supernode_.size())
 	{
 	}
 
@@ -155,13 +155,13 @@ private:
 	void begin(int s)
 	{
 		for (int i = 0; i < L_.height(s); ++i)
-			place_[L_.rowsOf(s)[i]] = i;
+			slot_[L_.rowsOf(s)[i]] = i;
 		for (int side = 0; side < sides(); ++side) {
-			const PlacedEntries& entries = sides_[side].entries;
-			double*              block   = blockOf(side, s);
+			const EntryDestinations& entries = sides_[side].entries;
+			double*                  block   = blockOf(side, s);
 			std::fill_n(block, std::ptrdiff_t(L_.width(s)) * L_.height(s), 0.);
 			for (int i = entries.start[s]; i < entries.start[s + 1]; ++i)
-				block[entries.entries[i].place] += values_[entries.entries[i].number];
+				block[entries.entries[i].slot] += values_[entries.entries[i].number];
 		}
 	}
 
@@ -172,7 +172,7 @@ private:
 		const int* rows  = L_.rowsOf(d) + begin;
 		const int  below = height - begin, within = int(std::lower_bound(rows, rows + below, L_.columns[s + 1]) - rows);
 		into_.resize(below);
-		std::transform(rows, rows + below, into_.begin(), [this](int row) { return place_[row]; });
+		std::transform(rows, rows + below, into_.begin(), [this](int row) { return slot_[row]; });
 		for (int side = 0; side < sides(); ++side)
 			subtract(
 			        side, blockOf(side, d) + begin, blockOf(otherThan(side), d) + begin, height, below, within, L_.width(d),
@@ -189,17 +189,17 @@ private:
 		products_.takeRight(b, stride, columns, inner, signs);
 		Products::Tile product;
 		for (int i = 0; i < rows; i += Products::rows) {
-			const int  count = std::min(Products::rows, rows - i), place = into_[i];
-			const bool isRun = count == Products::rows && into_[i + count - 1] == place + count - 1;
+			const int  count = std::min(Products::rows, rows - i), slot = into_[i];
+			const bool isRun = count == Products::rows && into_[i + count - 1] == slot + count - 1;
 			products_.takeLeft(a + i, stride, count);
 			for (int j = 0; j < std::min(columns, i + count); j += Products::columns) {
 				const int end = std::min(j + Products::columns, columns);
 				for (int c = j; c < end; ++c) // it comes while they are multiplied
-					for (const int row : { place, place + Products::rows - 1 })
+					for (const int row : { slot, slot + Products::rows - 1 })
 						__builtin_prefetch(column(side, s, c) + row, 1);
 				products_.multiply(j, product);
 				for (int c = j; c < end; ++c)
-					if (isRun) takeFrom(column(side, s, c) + place, product.of[c - j]);
+					if (isRun) takeFrom(column(side, s, c) + slot, product.of[c - j]);
 					else
 						for (int k = 0; k < count; ++k)
 							column(side, s, c)[into_[i + k]] -= product.of[c - j][k / 4][k % 4];
@@ -316,8 +316,8 @@ private:
 	std::vector<int>           supernode_;    // of each column
 	std::vector<int>           first_, next_; // lists: of each supernode the earlier ones that have rows there
 	std::vector<int>           taken_;        // rows of each supernode that are done
-	std::vector<int>           place_;        // of each row in the supernode at hand
-	std::vector<int>           into_;         // of each row of an update, its place there
+	std::vector<int>           slot_;         // of each row in the supernode at hand
+	std::vector<int>           into_;         // of each row of an update, its position there
 	Products                   products_;
 	std::vector<double>        right_, update_; // of large products, reused
 	double                     least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
@@ -325,11 +325,11 @@ private:
 
 } // namespace
 
-PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K, Part part)
+EntryDestinations::EntryDestinations(const cholmod_factor& factor, const Csc& K, Part part)
 {
 	const Supernodes L(factor);
 	const int *      order = static_cast<const int*>(factor.Perm), n = K.size();
-	std::vector<int> number(n), place(n);
+	std::vector<int> number(n), slot(n);
 	for (int i = 0; i < n; ++i)
 		number[order[i]] = i;
 	const auto supernode  = L.ofColumns();
@@ -344,18 +344,18 @@ PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K, Part pa
 	start.assign(L.count + 1, 0);
 	forEntries([&](int, int column, int) { ++start[supernode[column] + 1]; });
 	std::partial_sum(start.begin(), start.end(), start.begin());
-	struct Unplaced {
+	struct Unsorted {
 		int e, column, row;
 	};
-	std::vector<Unplaced> sorted(start.back());
+	std::vector<Unsorted> sorted(start.back());
 	std::vector<int>      next(start.begin(), start.end() - 1);
 	forEntries([&](int e, int column, int row) { sorted[next[supernode[column]]++] = { e, column, row }; });
 	entries.resize(sorted.size());
 	for (int s = 0; s < L.count; ++s) {
 		for (int i = 0; i < L.height(s); ++i)
-			place[L.rowsOf(s)[i]] = i;
+			slot[L.rowsOf(s)[i]] = i;
 		for (int i = start[s]; i < start[s + 1]; ++i) {
-			const int row = place[sorted[i].row];
+			const int row = slot[sorted[i].row];
 			areInPattern  = areInPattern && row < L.height(s) && L.rowsOf(s)[row] == sorted[i].row;
 			entries[i]    = { sorted[i].e, (sorted[i].column - L.columns[s]) * L.height(s) + row };
 		}
@@ -374,13 +374,13 @@ bool factorise(const Supernodes& L, const std::vector<Side>& sides, const std::v
 
 } // namespace
 
-bool factoriseSigned(cholmod_factor& factor, const PlacedEntries& entries, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
+bool factoriseSigned(cholmod_factor& factor, const EntryDestinations& entries, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
 {
 	return factorise(Supernodes(factor), { { entries, static_cast<double*>(factor.x) } }, values, smallest, signs);
 }
 
 bool factoriseSigned(
-        cholmod_factor& factor, std::vector<double>& upper, const PlacedEntries& below, const PlacedEntries& above, const std::vector<double>& values,
+        cholmod_factor& factor, std::vector<double>& upper, const EntryDestinations& below, const EntryDestinations& above, const std::vector<double>& values,
         double smallest, Eigen::VectorXd& signs)
 {
 	upper.resize(factor.xsize);

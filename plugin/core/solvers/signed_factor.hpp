@@ -9,31 +9,31 @@
 namespace gimpm {
 
 /// Where entries of a matrix go among the values of a supernodal factor of its pattern, supernode by supernode.
-struct PlacedEntries {
+struct EntryDestinations {
 	/// Of a matrix that is given by its upper triangle, or what of another one is below the diagonal of the factor,
 	/// with it, or above, transposed.
 	enum class Part { triangle, below, above };
 	struct Entry {
-		int number, place; ///< in the matrix, and from the first value of its supernode
+		int number, slot; ///< in the matrix, and from the first value of its supernode
 	};
 	std::vector<Entry> entries;
 	std::vector<int>   start;               ///< those of supernode s: start[s] ... start[s + 1] - 1
 	bool               areInPattern = true; ///< not if an entry of a general matrix lacks the one across the diagonal
 
-	PlacedEntries() = default;
-	PlacedEntries(const cholmod_factor&, const Csc& K, Part);
+	EntryDestinations() = default;
+	EntryDestinations(const cholmod_factor&, const Csc& K, Part);
 };
 
 /// Supernode by supernode, from the left, without pivoting: that is stable where one field is stiff and the other one
 /// soft (quasi-definite matrices: Vanderbei 1995), as with displacements and pressures that are stabilised; who solves
 /// with it has to look at the residual. The values of the factor are written, and the signs in its order. False if a
 /// pivot is smaller than a part `smallest` of the largest one.
-bool factoriseSigned(cholmod_factor&, const PlacedEntries&, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs);
+bool factoriseSigned(cholmod_factor&, const EntryDestinations&, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs);
 
 /// The same of a matrix that is not symmetric: L and U^T have the same diagonal, whose squares are the sizes of the
 /// pivots, and the same pattern. The values of U^T go to `upper`.
 bool factoriseSigned(
-        cholmod_factor&, std::vector<double>& upper, const PlacedEntries& below, const PlacedEntries& above, const std::vector<double>& values, double smallest,
-        Eigen::VectorXd& signs);
+        cholmod_factor&, std::vector<double>& upper, const EntryDestinations& below, const EntryDestinations& above, const std::vector<double>& values,
+        double smallest, Eigen::VectorXd& signs);
 
 } // namespace gimpm

@@ -208,26 +208,26 @@ bool SupernodalFactor::factorise(const Csc& K)
 	return factor_ && cholmod_factorize(&A, factor_, &common_) && common_.status == CHOLMOD_OK;
 }
 
-bool SupernodalFactor::placeEntries(const Csc& K, bool isSymmetric)
+bool SupernodalFactor::findDestinations(const Csc& K, bool isSymmetric)
 {
-	using Part = PlacedEntries::Part;
+	using Part = EntryDestinations::Part;
 	if (!factor_ || !factor_->is_super) return false;
 	if (!entries_.start.empty() && isSymmetric == above_.start.empty()) return true;
 	if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_)) return false;
-	entries_ = PlacedEntries(*factor_, K, isSymmetric ? Part::triangle : Part::below);
-	above_   = isSymmetric ? PlacedEntries() : PlacedEntries(*factor_, K, Part::above);
+	entries_ = EntryDestinations(*factor_, K, isSymmetric ? Part::triangle : Part::below);
+	above_   = isSymmetric ? EntryDestinations() : EntryDestinations(*factor_, K, Part::above);
 	upper_.clear();
 	return true;
 }
 
 bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
 {
-	return placeEntries(K, true) && gimpm::factoriseSigned(*factor_, entries_, K.value, smallest, signs_);
+	return findDestinations(K, true) && gimpm::factoriseSigned(*factor_, entries_, K.value, smallest, signs_);
 }
 
 bool SupernodalFactor::factoriseGeneral(const Csc& K, double smallest)
 {
-	return placeEntries(K, false) && entries_.areInPattern && above_.areInPattern
+	return findDestinations(K, false) && entries_.areInPattern && above_.areInPattern
 	        && gimpm::factoriseSigned(*factor_, upper_, entries_, above_, K.value, smallest, signs_);
 }
 

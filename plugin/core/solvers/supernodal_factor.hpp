@@ -51,12 +51,12 @@ private:
 	void analyseNodes(const Csc& K, const std::vector<int>& order);
 	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 	bool solveTriangle(int system, bool ofUpper, const Eigen::VectorXd& b, Eigen::VectorXd& x);
-	bool placeEntries(const Csc& K, bool isSymmetric);
+	bool findDestinations(const Csc& K, bool isSymmetric);
 
 	cholmod_common  common_;
 	cholmod_factor* factor_ = nullptr;
 
-	PlacedEntries       entries_, above_; ///< of K, among the values of a factor with signs; above_: none if it is symmetric
+	EntryDestinations   entries_, above_; ///< of K, among the values of a factor with signs; above_: none if it is symmetric
 	std::vector<double> upper_;           ///< of U^T; empty if it is L^T
 	Eigen::VectorXd     signs_;           ///< in the order of the factor
 };

@@ -73,12 +73,12 @@ private:
 	/// not.
 	static Node behind(const StepSystem<Dim>& system, const Patch<Dim>& patch, int hidden, int count)
 	{
-		const Index<Dim> place   = along(patch, hidden);
+		const Index<Dim> position = along(patch, hidden);
 		int              nearest = -1, distance = 2 * Dim + 1;
 		for (int n = 0; n < count; ++n)
-			if (const int d = (along(patch, n) - place).cwiseAbs().sum(); patch.node[n] >= 0 && d < distance) nearest = n, distance = d;
+			if (const int d = (along(patch, n) - position).cwiseAbs().sum(); patch.node[n] >= 0 && d < distance) nearest = n, distance = d;
 		int axis = 0;
-		while (along(patch, nearest)[axis] == place[axis])
+		while (along(patch, nearest)[axis] == position[axis])
 			++axis;
 		return { system.basis.nodes[patch.node[nearest]], axis };
 	}

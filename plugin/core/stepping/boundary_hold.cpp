@@ -82,8 +82,8 @@ private:
 		Index<Dim> low = box.lower, high = box.upper; // of the nodes that the point is before
 		for (int a = 0; a < Dim; ++a) {
 			if (a == axis) continue;
-			const double place = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
-			const int    first = -floorToInt(reach - place), last = floorToInt(place + reach);
+			const double position = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
+			const int    first = -floorToInt(reach - position), last = floorToInt(position + reach);
 			const bool   isPeriodic = box.period[a] != 0; // then those beyond the sides count too
 			low[a]                  = isPeriodic ? first : std::max(low[a], first);
 			high[a]                 = isPeriodic ? last : std::min(high[a], last);
@@ -149,13 +149,13 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 	}
 	for (int a = 0; a < Dim; ++a)
 		low[a] = -division.largest(-low[a]), high[a] = division.largest(high[a]);
-	const auto place = [&](const Index<Dim>& node) {
+	const auto position = [&](const Index<Dim>& node) {
 		Vec<Dim> x = grid.nodePosition(node);
 		for (int a = 0; a < Dim; ++a)
 			if (std::abs(node[a]) > Grid<Dim>::indexLimit) x[a] = std::copysign(std::numeric_limits<double>::infinity(), node[a]);
 		return listed(x);
 	};
-	return "none of its nodes, from " + place(box.lower) + " to " + place(box.upper) + ", carries soil, which lies between " + listed(low) + " and "
+	return "none of its nodes, from " + position(box.lower) + " to " + position(box.upper) + ", carries soil, which lies between " + listed(low) + " and "
 	        + listed(high);
 }
 

@@ -19,8 +19,8 @@ namespace {
 /// Points that are loose stay where they are: no equilibrium determines where they go.
 template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& system, const Load<Dim>& load, StepReport& report)
 {
-	report.loosePoints = loose.points;
-	report.loosePlace  = loose.place;
+	report.loosePoints   = loose.points;
+	report.loosePosition = loose.position;
 	if (loose.points == 0) return;
 	system.holdStill(loose.nodes, load);
 	report.dofs = system.dofs.count;

@@ -41,9 +41,9 @@ struct StepReport {
 	int mixedCells = 0; ///< populated by points of several materials
 	int parts      = 0; ///< of the body that share no node
 	/// In parts of a few points that nothing keeps from moving freely (restraint.hpp), which are held where they
-	/// are, and the place of the first part.
+	/// are, and the position of the first part.
 	int         loosePoints = 0;
-	std::string loosePlace {};
+	std::string loosePosition {};
 	Vec3        looseForce = Vec3::Zero(); ///< with which they are held [N]
 
 	/// Free degree of freedom with the largest out-of-balance force.

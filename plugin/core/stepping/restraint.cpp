@@ -14,7 +14,7 @@
 namespace gimpm {
 namespace {
 
-/// Parts of the body: nodes joined by patches. In a periodic grid the places of a part's nodes follow the patches
+/// Parts of the body: nodes joined by patches. In a periodic grid the positions of a part's nodes follow the patches
 /// beyond the sides.
 template <int Dim> class Parts {
 public:
@@ -53,7 +53,7 @@ public:
 	const std::vector<Turn>& turns() const { return turns_; }
 
 	/// In cells.
-	Vec<Dim> place(std::size_t node) const { return (index(int(node)) + offset_[node]).template cast<double>(); }
+	Vec<Dim> location(std::size_t node) const { return (index(int(node)) + offset_[node]).template cast<double>(); }
 
 private:
 	Index<Dim> index(int node) const { return Grid<Dim>::index(basis_.nodes[node]); }
@@ -73,14 +73,14 @@ private:
 	{
 		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
 		int              first = -1;
-		// How far the place of the first node in the patch is from that which its number stands for.
+		// How far the position of the first node in the patch is from that which its number stands for.
 		Index<Dim> image;
 		for (int n = 0; n < windowNodes<Dim>; ++n) {
 			if (patch.node[n] < 0) continue;
-			Index<Dim> place = cell;
+			Index<Dim> location = cell;
 			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a)
-				place[a] += rest % patch.nodesAlong(a) * (1 << Grid<Dim>::level(patch.cell));
-			const Index<Dim> shift = grid.isPeriodic() ? Index<Dim>(place - index(patch.node[n])) : Index<Dim>(Index<Dim>::Zero());
+				location[a] += rest % patch.nodesAlong(a) * (1 << Grid<Dim>::level(patch.cell));
+			const Index<Dim> shift = grid.isPeriodic() ? Index<Dim>(location - index(patch.node[n])) : Index<Dim>(Index<Dim>::Zero());
 			if (first < 0) first = patch.node[n], image = shift;
 			else
 				join(first, patch.node[n], shift - image);
@@ -118,12 +118,12 @@ template <int Dim> struct Part {
 
 	Vec<Dim> centre() const { return sum / nodes; }
 
-	/// What resists a displacement in this direction at this place.
-	void hold(const Vec<Dim>& place, const Vec<Dim>& direction)
+	/// What resists a displacement in this direction at this position.
+	void hold(const Vec<Dim>& position, const Vec<Dim>& direction)
 	{
 		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();
 		for (int a = 0; a < Dim; ++a)
-			if (direction[a] != 0) m += direction[a] * rigidModes(place, a);
+			if (direction[a] != 0) m += direction[a] * rigidModes(position, a);
 		gram += m * m.transpose();
 	}
 
@@ -144,12 +144,12 @@ template <int Dim> struct Part {
 	}
 
 private:
-	/// Value of the rigid modes in a direction at a place: translations, then rotations of unit displacement at
+	/// Value of the rigid modes in a direction at a position: translations, then rotations of unit displacement at
 	/// `reach`.
-	Eigen::Matrix<double, modes, 1> rigidModes(const Vec<Dim>& place, int axis) const
+	Eigen::Matrix<double, modes, 1> rigidModes(const Vec<Dim>& position, int axis) const
 	{
 		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();
-		const Vec<Dim>                  r = (place - centre()) / reach;
+		const Vec<Dim>                  r = (position - centre()) / reach;
 		m[axis]                           = 1;
 		if constexpr (Dim == 2) m[2] = axis == 0 ? -r[1] : r[0];
 		else
@@ -161,10 +161,10 @@ private:
 
 template <int Dim> std::string placeOf(const Part<Dim>& part, const Grid<Dim>& grid)
 {
-	const Vec<Dim>     place = grid.origin + grid.cellSize * part.centre();
+	const Vec<Dim>     position = grid.origin + grid.cellSize * part.centre();
 	std::ostringstream text;
-	text << "(" << place[0] << ", " << place[1];
-	if (Dim == 3) text << ", " << place[Dim - 1];
+	text << "(" << position[0] << ", " << position[1];
+	if (Dim == 3) text << ", " << position[Dim - 1];
 	text << ")";
 	return text.str();
 }
@@ -201,7 +201,7 @@ template <int Dim> Restraint judged(const std::map<int, Part<Dim>>& found, const
 			if (result.freeMotion.empty()) result.freeMotion = motion;
 			continue;
 		}
-		if (result.loose.place.empty()) result.loose.place = placeOf(part, grid);
+		if (result.loose.position.empty()) result.loose.position = placeOf(part, grid);
 		result.loose.points += part.points;
 		for (int n = 0; n < nodes; ++n)
 			if (parts.root(n) == root) result.loose.nodes.push_back(n);
@@ -238,21 +238,22 @@ Restraint restraintBy(
 	std::map<int, Part<Dim>> found;
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
 		Part<Dim>& part = found[parts.root(n)];
-		part.sum += parts.place(n);
+		part.sum += parts.location(n);
 		++part.nodes;
 	}
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
 		Part<Dim>& part = found[parts.root(n)];
-		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
+		part.reach      = std::max(part.reach, (parts.location(n) - part.centre()).norm());
 	}
 	countPoints(basis, parts, division, found);
-	const auto hold
-	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
+	const auto hold = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& position) {
+		found[parts.root(n)].hold(parts.location(n) + position, direction);
+	};
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
 			if (!basis.ties.contains(int(n)) && boundary.holder(basis.nodes[n], a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 	for (const auto& term : terms)
-		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& place) { hold(n, direction.normalized(), place); });
+		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& position) { hold(n, direction.normalized(), position); });
 	for (auto& [root, part] : found)
 		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())
@@ -296,7 +297,7 @@ public:
 		for (const auto& [group, nodes] : small_) {
 			const Part<Dim> part = heldPart(nodes, boundary, terms);
 			if (describe(part, grid_).empty()) continue;
-			if (result.points == 0) result.place = placeOf(part, grid_);
+			if (result.points == 0) result.position = placeOf(part, grid_);
 			result.points += points_.at(group);
 			std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(result.nodes), [&](int n) { return !ofLarge_[n]; });
 		}
@@ -316,22 +317,22 @@ private:
 		return cell;
 	}
 	void     join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-	Vec<Dim> place(int node) const { return Grid<Dim>::index(basis_.nodes[node]).template cast<double>(); }
+	Vec<Dim> position(int node) const { return Grid<Dim>::index(basis_.nodes[node]).template cast<double>(); }
 
 	/// With what holds it, nodes of large groups among that.
 	Part<Dim> heldPart(const std::set<int>& nodes, const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
 	{
 		Part<Dim> part;
 		for (const int n : nodes)
-			part.sum += place(n), ++part.nodes;
+			part.sum += position(n), ++part.nodes;
 		for (const int n : nodes)
-			part.reach = std::max(part.reach, (place(n) - part.centre()).norm());
+			part.reach = std::max(part.reach, (position(n) - part.centre()).norm());
 		for (const int n : nodes)
 			for (int a = 0; a < Dim; ++a)
-				if (ofLarge_[n] || boundary.holder(basis_.nodes[n], a)) part.hold(place(n), Vec<Dim>::Unit(a));
+				if (ofLarge_[n] || boundary.holder(basis_.nodes[n], a)) part.hold(position(n), Vec<Dim>::Unit(a));
 		for (const auto& term : terms)
 			term->restrain([&](int n, const Vec<Dim>& direction, const Vec<Dim>& inCell) {
-				if (nodes.count(n)) part.hold(place(n) + inCell, direction.normalized());
+				if (nodes.count(n)) part.hold(position(n) + inCell, direction.normalized());
 			});
 		if (grid_.axisymmetric) part.encircle();
 		return part;

@@ -10,7 +10,7 @@ namespace gimpm {
 struct LoosePoints {
 	std::vector<int> nodes {};
 	int              points = 0;
-	std::string      place {}; ///< of the first, "(1, 2)"
+	std::string      position {}; ///< of the first, "(1, 2)"
 };
 
 struct Restraint {

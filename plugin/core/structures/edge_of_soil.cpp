@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// How far the middles of points that may fill the cell beyond a place are from it [cells].
+/// How far the middles of points that may fill the cell beyond a position are from it [cells].
 constexpr double reachOfPoints = 2;
 
 /// How much of an interval around a middle lies in another one.
@@ -17,8 +17,8 @@ EdgeOfSoil::EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const P
         : cloud_(cloud), cellSize_(cellSize), reach_(reachOfPoints * cellSize)
 {
 	Vec<2> low = line.front(), high = low;
-	for (const Vec<2>& place : line)
-		low = low.cwiseMin(place), high = high.cwiseMax(place);
+	for (const Vec<2>& position : line)
+		low = low.cwiseMin(position), high = high.cwiseMax(position);
 	(high - low).maxCoeff(&axis_);
 	low.array() -= reach_, high.array() += reach_;
 	for (int p = 0; p < int(cloud.size()); ++p)
@@ -26,24 +26,24 @@ EdgeOfSoil::EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const P
 	std::sort(points_.begin(), points_.end(), [&](int p, int q) { return cloud.position[p][axis_] < cloud.position[q][axis_]; });
 }
 
-std::vector<int> EdgeOfSoil::around(const Vec<2>& place, int layer) const
+std::vector<int> EdgeOfSoil::around(const Vec<2>& position, int layer) const
 {
 	const auto       along = [&](int p) { return cloud_.position[p][axis_]; };
-	const auto       first = std::lower_bound(points_.begin(), points_.end(), place[axis_] - reach_, [&](int p, double x) { return along(p) < x; });
+	const auto       first = std::lower_bound(points_.begin(), points_.end(), position[axis_] - reach_, [&](int p, double x) { return along(p) < x; });
 	std::vector<int> near;
-	for (auto p = first; p != points_.end() && along(*p) <= place[axis_] + reach_; ++p)
-		if (cloud_.layerOf(*p) == layer && (cloud_.position[*p] - place).cwiseAbs().maxCoeff() <= reach_) near.push_back(*p);
+	for (auto p = first; p != points_.end() && along(*p) <= position[axis_] + reach_; ++p)
+		if (cloud_.layerOf(*p) == layer && (cloud_.position[*p] - position).cwiseAbs().maxCoeff() <= reach_) near.push_back(*p);
 	std::sort(near.begin(), near.end());
 	return near;
 }
 
-double EdgeOfSoil::from(const Vec<2>& place, const Vec<2>& n, int layer) const
+double EdgeOfSoil::from(const Vec<2>& position, const Vec<2>& n, int layer) const
 {
 	const double h = cellSize_, window = h / 2;
 	const Vec<2> t(-n[1], n[0]);
 	double       before = 0, behind = 0;
-	for (const int p : around(place, layer)) {
-		const Vec<2> apart     = cloud_.position[p] - place;
+	for (const int p : around(position, layer)) {
+		const Vec<2> apart     = cloud_.position[p] - position;
 		const auto   halfAlong = [&](const Vec<2>& e) { return e.cwiseProduct(cloud_.halfSize[p]).norm(); };
 		const double along     = overlap(apart.dot(t), halfAlong(t), -window, window);
 		before += along * overlap(apart.dot(n), halfAlong(n), -h, h / 2);

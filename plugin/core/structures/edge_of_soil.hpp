@@ -5,20 +5,20 @@
 
 namespace gimpm {
 
-/// Has the points near a line sorted by the axis along which it is longer, so that a place on it need not go through
+/// Has the points near a line sorted by the axis along which it is longer, so that a position on it need not go through
 /// all. Refers to the cloud.
 class EdgeOfSoil {
 public:
 	EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const PointCloud<2>&);
 
-	/// How far along n from a place on the line the points of a layer begin that fill the cell beyond, within half
-	/// a cell: what lies before its middle reaches as far as it would if it were as wide as what lies behind.
+	/// How far along n from a position on the line the points of a layer begin that fill the cell beyond, within
+	/// half a cell: what lies before its middle reaches as far as it would if it were as wide as what lies behind.
 	/// Points are on the side that their middles are on, so that a beam may go through the domains of some.
-	double from(const Vec<2>& place, const Vec<2>& n, int layer) const;
+	double from(const Vec<2>& position, const Vec<2>& n, int layer) const;
 
 private:
-	/// Of a layer, within the reach of a place along each axis, in ascending order.
-	std::vector<int> around(const Vec<2>& place, int layer) const;
+	/// Of a layer, within the reach of a position along each axis, in ascending order.
+	std::vector<int> around(const Vec<2>& position, int layer) const;
 
 	const PointCloud<2>& cloud_;
 	double               cellSize_, reach_;

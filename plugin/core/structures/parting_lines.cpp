@@ -7,7 +7,7 @@ namespace {
 
 /// A beam with what it is made longer by [m].
 struct PartingLine {
-	std::vector<Vec<2>> places;
+	std::vector<Vec<2>> positions;
 	bool                isClosed = false;
 	std::vector<Vec<2>> tips;
 	int                 layer = 0;
@@ -16,9 +16,9 @@ struct PartingLine {
 /// Beyond a vertex, where soil would make it a tip; to the sides, where there is soil to be parted [cells].
 constexpr double aside = 0.5, reachOfSoil = 0.25;
 
-bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& grid)
+bool hasSoil(const Vec<2>& position, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	return !areFarFromMaterial<2>({ place }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
+	return !areFarFromMaterial<2>({ position }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
 /// Extends a beam beyond its open ends: out of the cells around them, where a cut ends half a cell to one and a half
@@ -26,13 +26,13 @@ bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& gri
 PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	constexpr double beyondEnds = 1.5; // [cells]
-	PartingLine      line { beam.places, beam.isClosed, {}, 0 };
+	PartingLine      line { beam.positions, beam.isClosed, {}, 0 };
 	if (beam.isClosed) return line;
 	for (const int end : { 1, 0 }) {
-		const Vec<2> vertex = end == 0 ? beam.places.front() : beam.places.back(), outwards = beam.outwardsAt(end);
+		const Vec<2> vertex = end == 0 ? beam.positions.front() : beam.positions.back(), outwards = beam.outwardsAt(end);
 		const bool   isTip  = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
 		const Vec<2> beyond = vertex + beyondEnds * grid.cellSize * outwards;
-		line.places.insert(end == 0 ? line.places.begin() : line.places.end(), beyond);
+		line.positions.insert(end == 0 ? line.positions.begin() : line.positions.end(), beyond);
 		if (isTip) line.tips.push_back(beyond);
 		beam.isTip[end] = isTip;
 	}
@@ -42,19 +42,19 @@ PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 /// Whether there is soil on both sides of any vertex.
 bool isBetween(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	std::vector<Vec<2>> places;
-	for (int v = 0; v < int(beam.places.size()); ++v) {
+	std::vector<Vec<2>> positions;
+	for (int v = 0; v < int(beam.positions.size()); ++v) {
 		const Vec<2> t = beam.tangentAt(v), n(-t[1], t[0]);
-		places.push_back(beam.places[v] + aside * grid.cellSize * n);
-		places.push_back(beam.places[v] - aside * grid.cellSize * n);
+		positions.push_back(beam.positions[v] + aside * grid.cellSize * n);
+		positions.push_back(beam.positions[v] - aside * grid.cellSize * n);
 	}
-	const auto isFar = areFarFromMaterial<2>(places, std::vector<double>(places.size(), reachOfSoil * grid.cellSize), cloud, grid);
-	for (std::size_t i = 0; i < places.size(); i += 2)
+	const auto isFar = areFarFromMaterial<2>(positions, std::vector<double>(positions.size(), reachOfSoil * grid.cellSize), cloud, grid);
+	for (std::size_t i = 0; i < positions.size(); i += 2)
 		if (!isFar[i] && !isFar[i + 1]) return true;
 	return false;
 }
 
-/// Whether a piece of a line goes through the square around a place.
+/// Whether a piece of a line goes through the square around a position.
 bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double half)
 {
 	double       begin = 0, end = 1;
@@ -71,15 +71,15 @@ bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double 
 	return begin < end;
 }
 
-bool isWithin(const Vec<2>& place, const Vec<2>& middle, double half) { return (place - middle).cwiseAbs().maxCoeff() < half; }
+bool isWithin(const Vec<2>& position, const Vec<2>& middle, double half) { return (position - middle).cwiseAbs().maxCoeff() < half; }
 
 /// The nodes whose four cells a line cuts in two.
 std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 {
 	const double          around = (1 - 1e-6) * grid.cellSize;
 	std::vector<Index<2>> nodes;
-	for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
-		const Vec<2>&  from = line.places[i], &to = line.places[i + 1];
+	for (std::size_t i = 0; i + 1 < line.positions.size(); ++i) {
+		const Vec<2>&  from = line.positions[i], &to = line.positions[i + 1];
 		const Index<2> low  = ((from.cwiseMin(to) - grid.origin) / grid.cellSize).array().floor().cast<int>() - 1;
 		const Index<2> high = ((from.cwiseMax(to) - grid.origin) / grid.cellSize).array().ceil().cast<int>() + 1;
 		for (int x = low[0]; x <= high[0]; ++x)
@@ -94,19 +94,19 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 	return nodes;
 }
 
-/// A place seen from a line.
+/// A position seen from a line.
 struct FromLine {
 	double away     = std::numeric_limits<double>::infinity();
 	double left     = 0;     ///< to the left of the nearest piece; of two that are as near, which meet in a corner, of both
 	bool   isBeyond = false; ///< one of the ends
 };
 
-FromLine fromLine(const std::vector<Vec<2>>& line, const Vec<2>& place)
+FromLine fromLine(const std::vector<Vec<2>>& line, const Vec<2>& position)
 {
 	const int last = int(line.size()) - 2;
 	FromLine  at;
 	for (int i = 0; i <= last; ++i) {
-		const Vec<2> along = line[i + 1] - line[i], from = place - line[i];
+		const Vec<2> along = line[i + 1] - line[i], from = position - line[i];
 		const double part = from.dot(along) / along.squaredNorm();
 		const double away = (from - std::clamp(part, 0., 1.) * along).norm();
 		const double left = (along[0] * from[1] - along[1] * from[0]) / along.norm();
@@ -119,7 +119,7 @@ FromLine fromLine(const std::vector<Vec<2>>& line, const Vec<2>& place)
 	return at;
 }
 
-/// The layer of a place near nodes of their own.
+/// The layer of a position near nodes of their own.
 class LayerAt {
 public:
 	LayerAt(std::vector<PartingLine> lines, std::vector<Key> own, const Grid<2>& grid)
@@ -127,23 +127,23 @@ public:
 	{
 		low_ = Vec<2>::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
 		for (const auto& line : lines_)
-			for (const Vec<2>& place : line.places)
-				low_ = low_.cwiseMin(place), high_ = high_.cwiseMax(place);
+			for (const Vec<2>& position : line.positions)
+				low_ = low_.cwiseMin(position), high_ = high_.cwiseMax(position);
 		low_.array() -= 4 * cellSize_, high_.array() += 4 * cellSize_;
 	}
-	int operator()(const Vec<2>& place) const
+	int operator()(const Vec<2>& position) const
 	{
-		if ((place - low_).minCoeff() < 0 || (high_ - place).minCoeff() < 0) return 0;
+		if ((position - low_).minCoeff() < 0 || (high_ - position).minCoeff() < 0) return 0;
 		for (const auto& line : lines_)
-			if (isNearOwn(place, line.layer) && fromLine(line.places, place).left < 0) return line.layer;
+			if (isNearOwn(position, line.layer) && fromLine(line.positions, position).left < 0) return line.layer;
 		return 0;
 	}
 
 private:
 	/// As far as domains reach: one cell and half of one.
-	bool isNearOwn(const Vec<2>& place, int layer) const
+	bool isNearOwn(const Vec<2>& position, int layer) const
 	{
-		const Vec<2>   x   = (place - origin_) / cellSize_;
+		const Vec<2>   x   = (position - origin_) / cellSize_;
 		const Index<2> low = (x.array() - 1.5).ceil().cast<int>(), high = (x.array() + 1.5).floor().cast<int>();
 		for (int i = low[0]; i <= high[0]; ++i)
 			for (int j = low[1]; j <= high[1]; ++j)
@@ -157,11 +157,11 @@ private:
 	double                   cellSize_;
 };
 
-/// The side of a line of vertices that a place within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond an
-/// end.
-int sideOf(const Beam& beam, const Vec<2>& place, double reach)
+/// The side of a line of vertices that a position within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond
+/// an end.
+int sideOf(const Beam& beam, const Vec<2>& position, double reach)
 {
-	const FromLine at = fromLine(beam.places, place);
+	const FromLine at = fromLine(beam.positions, position);
 	if (at.away > reach || (at.isBeyond && !beam.isClosed) || at.left == 0) return 0;
 	return at.left > 0 ? 1 : -1;
 }
@@ -183,18 +183,18 @@ void lookBetween(const std::vector<Beam*>& beams, const PointCloud<2>& cloud, co
 		beam->layer = 0, beam->isTip = {}, beam->isBetween = isBetween(*beam, cloud, grid);
 }
 
-std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& places, double cellSize)
+std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& positions, double cellSize)
 {
-	std::vector<int> sides(places.size(), 0);
+	std::vector<int> sides(positions.size(), 0);
 	for (const Beam* beam : beams) {
 		if (beam->layer == 0) continue;
-		Vec<2> low = beam->places.front(), high = low;
-		for (const Vec<2>& place : beam->places)
-			low = low.cwiseMin(place), high = high.cwiseMax(place);
+		Vec<2> low = beam->positions.front(), high = low;
+		for (const Vec<2>& position : beam->positions)
+			low = low.cwiseMin(position), high = high.cwiseMax(position);
 		low.array() -= cellSize, high.array() += cellSize;
-		for (std::size_t p = 0; p < places.size(); ++p)
-			if ((places[p] - low).minCoeff() >= 0 && (high - places[p]).minCoeff() >= 0)
-				if (const int side = sideOf(*beam, places[p], cellSize); side != 0) sides[p] = -side * beam->layer;
+		for (std::size_t p = 0; p < positions.size(); ++p)
+			if ((positions[p] - low).minCoeff() >= 0 && (high - positions[p]).minCoeff() >= 0)
+				if (const int side = sideOf(*beam, positions[p], cellSize); side != 0) sides[p] = -side * beam->layer;
 	}
 	return sides;
 }

@@ -35,14 +35,14 @@ Quantity sineOf(const Quantity& a)
 }
 Quantity coordinate(int index, double value) { return { value, Vec6::Unit(index), Mat6::Zero() }; }
 
-/// At a place of a piece, from 0 to 1: derivatives of Hermite's functions of the turns of its ends.
+/// At a position of a piece, from 0 to 1: derivatives of Hermite's functions of the turns of its ends.
 struct Hermite {
 	Vec<2> first, curvature;
 
 	explicit Hermite(double x) : first((1 - x) * (1 - 3 * x), -x * (2 - 3 * x)), curvature(-4 + 6 * x, -2 + 6 * x) { }
 };
 
-/// Strains and curvatures at a place.
+/// Strains and curvatures at a position.
 struct Strains {
 	Quantity along, hoop, bend, hoopBend;
 };
@@ -91,12 +91,12 @@ Quantity halfEnergy(const Quantity& a, const Quantity& b, double poisson) { retu
 
 Energy<6> energyOf(const ShellPiece& piece, const BeamSection& section, const Vec6& u)
 {
-	constexpr double places[] { 0.1127016653792583, 0.5, 0.8872983346207417 }, weights[] { 5. / 18, 8. / 18, 5. / 18 };
+	constexpr double positions[] { 0.1127016653792583, 0.5, 0.8872983346207417 }, weights[] { 5. / 18, 8. / 18, 5. / 18 };
 	const Shape      shape(piece, u);
 	Energy<6>        sum;
 	for (int g = 0; g < 3; ++g) {
-		const Strains at   = shape.at(places[g]);
-		const double  area = weights[g] * 2 * M_PI * shape.radius0(places[g]) * piece.meridian.length0;
+		const Strains at   = shape.at(positions[g]);
+		const double  area = weights[g] * 2 * M_PI * shape.radius0(positions[g]) * piece.meridian.length0;
 		sum                = sum + (area * section.axialStiffness) * halfEnergy(at.along, at.hoop, section.poisson)
 		        + (area * section.bendingStiffness) * halfEnergy(at.bend, at.hoopBend, section.poisson);
 	}

@@ -5,26 +5,26 @@
 namespace gimpm {
 
 template <int Dim>
-std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const StepContext<Dim>& step, int layer)
+std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& positions, const std::vector<double>& reach, const StepContext<Dim>& step, int layer)
 {
 	const double farthest = *std::max_element(reach.begin(), reach.end());
 	const auto&  cloud    = step.cloud;
-	Vec<Dim>     low = places.front(), high = low;
-	for (const Vec<Dim>& place : places)
-		low = low.cwiseMin(place), high = high.cwiseMax(place);
+	Vec<Dim>     low = positions.front(), high = low;
+	for (const Vec<Dim>& position : positions)
+		low = low.cwiseMin(position), high = high.cwiseMax(position);
 	low.array() -= farthest, high.array() += farthest;
 
-	std::vector<SoilNear<Dim>> near(places.size());
-	std::vector<double>        weight(places.size(), 0);
+	std::vector<SoilNear<Dim>> near(positions.size());
+	std::vector<double>        weight(positions.size(), 0);
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		if (layer >= 0 && cloud.layerOf(int(p)) != layer) continue;
 		const Vec<Dim>& x = cloud.position[p];
 		if (!step.grid.isPeriodic() && ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0)) continue;
 		std::optional<VolumeAndModulus> soil;
-		for (std::size_t i = 0; i < places.size(); ++i) {
+		for (std::size_t i = 0; i < positions.size(); ++i) {
 			double nearness = 1;
 			for (int a = 0; a < Dim && nearness > 0; ++a) {
-				const double length = step.grid.cellSize * step.grid.period[a], apart = places[i][a] - x[a];
+				const double length = step.grid.cellSize * step.grid.period[a], apart = positions[i][a] - x[a];
 				const double nearest = length > 0 ? apart - length * std::round(apart / length) : apart;
 				nearness *= std::max(0., 1 - std::abs(nearest) / reach[i]);
 			}
@@ -36,7 +36,7 @@ std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const s
 			near[i].stress.c += nearness * cloud.stress[p].c;
 		}
 	}
-	for (std::size_t i = 0; i < places.size(); ++i)
+	for (std::size_t i = 0; i < positions.size(); ++i)
 		if (weight[i] > 0) near[i].young /= weight[i], near[i].stress.c /= weight[i];
 	return near;
 }

@@ -19,9 +19,9 @@ void stiffenBeam(Beam& beam, double scale)
 	for (Vec<2>& bend : beam.bend)
 		bend *= scale;
 	for (std::size_t v = 0; v < beam.radius0.size(); ++v)
-		beam.radius0[v] += (1 - scale) * (beam.places[v][0] - beam.radius0[v]);
+		beam.radius0[v] += (1 - scale) * (beam.positions[v][0] - beam.radius0[v]);
 	for (std::size_t i = 0; i < beam.slope0.size(); ++i) {
-		const Vec<2> along = beam.places[i + 1] - beam.places[i];
+		const Vec<2> along = beam.positions[i + 1] - beam.positions[i];
 		beam.slope0[i] += (1 - scale) * (along[1] / along.norm() - beam.slope0[i]);
 	}
 }
@@ -52,22 +52,22 @@ template <int Dim> void Structure<Dim>::stiffen(double scale)
 	if (beam) stiffenBeam(*beam, scale);
 }
 
-template <int Dim> std::vector<std::vector<Vec<Dim>>> Structure<Dim>::places() const
+template <int Dim> std::vector<std::vector<Vec<Dim>>> Structure<Dim>::positions() const
 {
 	std::vector<std::vector<Vec<Dim>>> all;
 	for (const auto& bar : bars)
-		all.push_back(bar.places);
+		all.push_back(bar.positions);
 	if constexpr (Dim == 2)
-		if (beam) all.push_back(beam->places);
+		if (beam) all.push_back(beam->positions);
 	return all;
 }
 
-template <int Dim> void Structure<Dim>::putBack(const std::vector<std::vector<Vec<Dim>>>& places)
+template <int Dim> void Structure<Dim>::putBack(const std::vector<std::vector<Vec<Dim>>>& positions)
 {
 	for (std::size_t b = 0; b < bars.size(); ++b)
-		bars[b].places = places[b];
+		bars[b].positions = positions[b];
 	if constexpr (Dim == 2)
-		if (beam) beam->places = places.back();
+		if (beam) beam->positions = positions.back();
 }
 
 template struct Structure<2>;

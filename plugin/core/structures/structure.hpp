@@ -44,7 +44,7 @@ template <int Dim> struct Reinforcement {
 	std::optional<double> jack {};        ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
 
 	/// As the step begins.
-	std::vector<Vec<Dim>> places;    ///< of the vertices [m]
+	std::vector<Vec<Dim>> positions; ///< of the vertices [m]
 	std::vector<double>   length0;   ///< of the pieces without stress [m]
 	std::vector<double>   strain;    ///< of the pieces: logarithmic, elastic, < 0 where they are slack
 	std::vector<double>   bondForce; ///< of each vertex: along the bar, on the bar against its slip [N]
@@ -55,12 +55,12 @@ template <int Dim> struct Reinforcement {
 	/// A new one along these vertices.
 	void begin(std::vector<Vec<Dim>> vertices)
 	{
-		places = std::move(vertices);
-		for (std::size_t i = 0; i + 1 < places.size(); ++i)
-			length0.push_back((places[i + 1] - places[i]).norm());
+		positions = std::move(vertices);
+		for (std::size_t i = 0; i + 1 < positions.size(); ++i)
+			length0.push_back((positions[i + 1] - positions[i]).norm());
 		strain.assign(length0.size(), 0);
 		force = strain;
-		bondForce.assign(places.size(), 0);
+		bondForce.assign(positions.size(), 0);
 		slip = bondForce;
 	}
 	bool slips() const { return std::isfinite(bondStiffness); }
@@ -81,8 +81,8 @@ struct TipBond {
 	double shear    = 0;     ///< on what is to the left of the line, from what is to its right, along it [Pa]
 };
 
-/// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs. Around
-/// an axis it is the meridian of a shell of revolution: forces are those on the whole ring then.
+/// A line of vertices in the plane, each with a position and a turn of its own, that the soil acts on by springs.
+/// Around an axis it is the meridian of a shell of revolution: forces are those on the whole ring then.
 struct Beam {
 	static constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -120,7 +120,7 @@ struct Beam {
 	std::array<bool, 2> isTip {};
 
 	/// As the step begins.
-	std::vector<Vec<2>>     places;
+	std::vector<Vec<2>>     positions;
 	std::vector<double>     turns;      ///< of the vertices in all [rad]
 	std::vector<double>     length0;    ///< of the pieces [m]
 	std::vector<double>     radius0;    ///< of a shell: of the vertices without stress [m]
@@ -144,25 +144,25 @@ struct Beam {
 	/// A new one along these vertices, with an axial force [N].
 	void begin(std::vector<Vec<2>> vertices, double prestress = 0)
 	{
-		places               = std::move(vertices);
+		positions            = std::move(vertices);
 		const double stretch = prestress == 0 ? 1 : 1 + prestress / section.axialStiffness;
-		for (std::size_t i = 0; i + 1 < places.size(); ++i)
-			length0.push_back((places[i + 1] - places[i]).norm() / stretch);
+		for (std::size_t i = 0; i + 1 < positions.size(); ++i)
+			length0.push_back((positions[i + 1] - positions[i]).norm() / stretch);
 		for (std::size_t i = 0; i < length0.size() && isShell; ++i)
-			slope0.push_back((places[i + 1][1] - places[i][1]) / length0[i]);
-		for (std::size_t v = 0; v < places.size() && isShell; ++v)
-			radius0.push_back(places[v][0]);
+			slope0.push_back((positions[i + 1][1] - positions[i][1]) / length0[i]);
+		for (std::size_t v = 0; v < positions.size() && isShell; ++v)
+			radius0.push_back(positions[v][0]);
 		for (const double length : length0)
 			elongation.push_back((stretch - 1) * length);
 		shearForce.assign(length0.size(), 0);
 		axialForce.assign(length0.size(), prestress);
 		bend.assign(length0.size(), Vec<2>::Zero());
 		moments = bend;
-		turns.assign(places.size(), 0);
+		turns.assign(positions.size(), 0);
 		for (BeamSide& side : sides)
 			side = { turns, turns, turns };
-		isStuck.assign(places.size(), 1);
-		if (isHinge.empty()) isHinge.assign(places.size(), 0);
+		isStuck.assign(positions.size(), 1);
+		if (isHinge.empty()) isHinge.assign(positions.size(), 0);
 	}
 	/// A vertex's part of the pieces beside it [m]: half of each; of a shell by area [m2], so that what is even
 	/// along a piece turns neither of its ends.
@@ -181,14 +181,14 @@ struct Beam {
 		return M_PI * (2 * own + other) / 3 * length0[piece];
 	}
 	/// Outwards from its first (0) or its last (1) vertex.
-	Vec<2> outwardsAt(int end) const { return (end == 0 ? -1 : 1) * tangentAt(end == 0 ? 0 : int(places.size()) - 1); }
+	Vec<2> outwardsAt(int end) const { return (end == 0 ? -1 : 1) * tangentAt(end == 0 ? 0 : int(positions.size()) - 1); }
 	bool   isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
 	/// Along the beam at a vertex, from its first to its last one.
 	Vec<2> tangentAt(int vertex) const
 	{
-		const int last = int(places.size()) - 1;
-		if (isClosed && vertex % last == 0) return (places[1] - places[last - 1]).normalized();
-		return (places[std::min(vertex + 1, last)] - places[std::max(vertex - 1, 0)]).normalized();
+		const int last = int(positions.size()) - 1;
+		if (isClosed && vertex % last == 0) return (positions[1] - positions[last - 1]).normalized();
+		return (positions[std::min(vertex + 1, last)] - positions[std::max(vertex - 1, 0)]).normalized();
 	}
 };
 
@@ -205,9 +205,9 @@ template <int Dim> struct Structure {
 	/// Number of vertices, those of the beam first.
 	int vertices() const
 	{
-		std::size_t sum = beam ? beam->places.size() : 0;
+		std::size_t sum = beam ? beam->positions.size() : 0;
 		for (const auto& bar : bars)
-			sum += bar.places.size();
+			sum += bar.positions.size();
 		return int(sum);
 	}
 	std::string name() const { return beam ? beam->name : bars.front().name; }
@@ -216,7 +216,7 @@ template <int Dim> struct Structure {
 	void stiffen(double scale);
 
 	/// Of the bars, and of the beam behind them.
-	std::vector<std::vector<Vec<Dim>>> places() const;
+	std::vector<std::vector<Vec<Dim>>> positions() const;
 	void                               putBack(const std::vector<std::vector<Vec<Dim>>>&);
 };
 

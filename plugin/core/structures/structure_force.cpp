@@ -25,9 +25,9 @@ double normalStress(const SymTensor<2>& stress, const Vec<2>& t)
 }
 double normalStress(const SymTensor<3>& stress, const Vec<3>& t) { return -(stress.inPlane().trace() - t.dot(stress.inPlane() * t)) / 2; }
 
-template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& places, std::size_t v)
+template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& positions, std::size_t v)
 {
-	return (places[std::min(v + 1, places.size() - 1)] - places[v > 0 ? v - 1 : 0]).normalized();
+	return (positions[std::min(v + 1, positions.size() - 1)] - positions[v > 0 ? v - 1 : 0]).normalized();
 }
 
 template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, const Grid<Dim>& grid) { return grid.size(at ? at->level : 0); }
@@ -42,28 +42,28 @@ template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure
 	if (obstacle_.empty()) system_.emplace(structure, soil_);
 }
 
-template <int Dim> std::vector<Vec<Dim>> StructureForce<Dim>::places() const
+template <int Dim> std::vector<Vec<Dim>> StructureForce<Dim>::positions() const
 {
 	std::vector<Vec<Dim>> all;
 	if constexpr (Dim == 2)
-		if (structure_.beam) all = structure_.beam->places;
+		if (structure_.beam) all = structure_.beam->positions;
 	for (const auto& bar : structure_.bars)
-		all.insert(all.end(), bar.places.begin(), bar.places.end());
+		all.insert(all.end(), bar.positions.begin(), bar.positions.end());
 	return all;
 }
 
 /// Calls f(bar, vertex of the bar, vertex of all).
 template <int Dim> template <class F> void StructureForce<Dim>::forVertices(F&& f) const
 {
-	int all = structure_.beam ? int(structure_.beam->places.size()) : 0;
+	int all = structure_.beam ? int(structure_.beam->positions.size()) : 0;
 	for (const auto& bar : structure_.bars)
-		for (int v = 0; v < int(bar.places.size()); ++v, ++all)
+		for (int v = 0; v < int(bar.positions.size()); ++v, ++all)
 			f(bar, v, all);
 }
 
 template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(const StepContext<Dim>& step)
 {
-	const auto                all = places();
+	const auto                all = positions();
 	std::vector<double>       reach, cells;
 	std::vector<SoilAtVertex> soil(all.size());
 	for (std::size_t v = 0; v < all.size(); ++v) {
@@ -80,12 +80,12 @@ template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(con
 		using Head           = typename Reinforcement<Dim>::Head;
 		const bool hasNone   = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
 		soil[i].exists       = !hasNone && attached_[i] && !isFar[i];
-		soil[i].normalStress = normalStress(near[i].stress, tangent(bar.places, v));
+		soil[i].normalStress = normalStress(near[i].stress, tangent(bar.positions, v));
 	});
 	if constexpr (Dim == 2)
 		if (structure_.beam) {
 			lookBesideBeam(step, soil);
-			for (std::size_t v = 0; v < structure_.beam->places.size(); ++v)
+			for (std::size_t v = 0; v < structure_.beam->positions.size(); ++v)
 				soil[v].normalStress = normalStress(near[v].stress, structure_.beam->tangentAt(int(v)));
 			if (structure_.beam->layer > 0) {
 				partAlongBeam(step, soil);
@@ -101,15 +101,15 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const StepContext<Di
 		const Beam&         beam = *structure_.beam;
 		std::vector<Vec<2>> beside;
 		std::vector<double> reach;
-		for (int v = 0; v < int(beam.places.size()); ++v) {
+		for (int v = 0; v < int(beam.positions.size()); ++v) {
 			const Vec<2> t = beam.tangentAt(v), n(-t[1], t[0]);
 			for (const double side : { 1., -1. }) {
-				beside.push_back(beam.places[v] + side * besideBeam * soil[v].cellSize * n);
+				beside.push_back(beam.positions[v] + side * besideBeam * soil[v].cellSize * n);
 				reach.push_back(besideReach * soil[v].cellSize);
 			}
 		}
 		const auto isFar = areFarFromMaterial<2>(beside, reach, step.cloud, step.grid);
-		for (std::size_t v = 0; v < beam.places.size(); ++v) {
+		for (std::size_t v = 0; v < beam.positions.size(); ++v) {
 			soil[v].sides  = int(!isFar[2 * v]) | int(!isFar[2 * v + 1]) << 1;
 			soil[v].exists = attached_[v] && soil[v].sides != 0 && soil[v].young > 0;
 		}
@@ -121,22 +121,22 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 {
 	if constexpr (Dim == 2) {
 		const Beam&               beam  = *structure_.beam;
-		const std::size_t         count = beam.places.size(), right = soil.size();
+		const std::size_t         count = beam.positions.size(), right = soil.size();
 		const std::vector<double> cells(count, step.grid.cellSize);
-		const std::array          near { soilNear<2>(beam.places, cells, step, 0), soilNear<2>(beam.places, cells, step, beam.layer) };
-		const EdgeOfSoil          edges(beam.places, step.grid.cellSize, step.cloud);
+		const std::array          near { soilNear<2>(beam.positions, cells, step, 0), soilNear<2>(beam.positions, cells, step, beam.layer) };
+		const EdgeOfSoil          edges(beam.positions, step.grid.cellSize, step.cloud);
 		soil.resize(right + count), attached_.resize(right + count);
 		for (std::size_t v = 0; v < count; ++v) {
 			const Vec<2> t        = beam.tangentAt(int(v)), n(-t[1], t[0]);
 			const auto   attachAt = [&](int side, double away) {
-                                const Vec<2> place = beam.places[v] + (side == 0 ? away : -away) * n;
-                                return attach<2>(place, step.basis, step.grid, side == 0 ? 0 : beam.layer);
+                                const Vec<2> position = beam.positions[v] + (side == 0 ? away : -away) * n;
+                                return attach<2>(position, step.basis, step.grid, side == 0 ? 0 : beam.layer);
 			};
 			std::array at { attachAt(0, 0), attachAt(1, 0) };
 			const bool isOne = at[0] && at[1] && at[0]->node == at[1]->node;
 			for (const int side : { 0, 1 }) {
 				const Vec<2> inwards = (side == 0 ? 1 : -1) * n;
-				if (!isOne) at[side] = attachAt(side, edges.from(beam.places[v], inwards, side == 0 ? 0 : beam.layer));
+				if (!isOne) at[side] = attachAt(side, edges.from(beam.positions[v], inwards, side == 0 ? 0 : beam.layer));
 				if (!at[side]) soil[v].sides &= ~(1 << side);
 			}
 			attached_[v]   = at[soil[v].sides == 2];
@@ -161,28 +161,29 @@ template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const StepContext<D
 	if constexpr (Dim == 2) {
 		const Beam&         beam = *structure_.beam;
 		const double        part = bondOfOnePart * step.grid.cellSize;
-		std::vector<Vec<2>> places;
+		std::vector<Vec<2>> positions;
 		for (const int end : { 0, 1 })
 			for (int i = 0; i < bondsOfTip; ++i)
-				places.push_back((end == 0 ? beam.places.front() : beam.places.back()) + (i + 0.5) * part * beam.outwardsAt(end));
-		const auto       near = soilNear<2>(places, std::vector<double>(places.size(), step.grid.cellSize), step);
-		const EdgeOfSoil edges(places, step.grid.cellSize, step.cloud);
-		for (std::size_t i = 0; i < places.size(); ++i) {
+				positions.push_back((end == 0 ? beam.positions.front() : beam.positions.back()) + (i + 0.5) * part * beam.outwardsAt(end));
+		const auto       near = soilNear<2>(positions, std::vector<double>(positions.size(), step.grid.cellSize), step);
+		const EdgeOfSoil edges(positions, step.grid.cellSize, step.cloud);
+		for (std::size_t i = 0; i < positions.size(); ++i) {
 			const int                   end = int(i) / bondsOfTip;
-			const Vec<2>                t   = beam.tangentAt(end == 0 ? 0 : int(beam.places.size()) - 1);
+			const Vec<2>                t   = beam.tangentAt(end == 0 ? 0 : int(beam.positions.size()) - 1);
 			std::array<SoilAtVertex, 2> beside;
 			const Vec<2>                n(-t[1], t[0]);
-			const auto attachTo = [&](int layer, double away) { return attach<2>(places[i] + away * n, step.basis, step.grid, layer); };
+			const auto attachTo = [&](int layer, double away) { return attach<2>(positions[i] + away * n, step.basis, step.grid, layer); };
 			auto       left = attachTo(0, 0), right = attachTo(beam.layer, 0);
 			const bool isParted = beam.isTip[end] && left && right && left->node != right->node;
-			if (isParted) left = attachTo(0, edges.from(places[i], n, 0)), right = attachTo(beam.layer, -edges.from(places[i], -n, beam.layer));
+			if (isParted)
+				left = attachTo(0, edges.from(positions[i], n, 0)), right = attachTo(beam.layer, -edges.from(positions[i], -n, beam.layer));
 			for (SoilAtVertex& at : beside) {
 				at.exists       = isParted && left && right && near[i].young > 0;
 				at.young        = near[i].young;
 				at.cellSize     = step.grid.cellSize;
 				at.normalStress = normalStress(near[i].stress, t);
 				at.shearStress  = shearStress(near[i].stress, t);
-				at.area         = part * (beam.isShell ? 2 * M_PI * places[i][0] : 1);
+				at.area         = part * (beam.isShell ? 2 * M_PI * positions[i][0] : 1);
 			}
 			soil.insert(soil.end(), beside.begin(), beside.end());
 			attached_.push_back(left), attached_.push_back(right);
@@ -198,7 +199,7 @@ template <int Dim> std::string StructureForce<Dim>::missingSoil(const StepContex
 		const bool hasNone = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
 		if (!missing.empty() || soil[i].exists || hasNone) return;
 		missing = sentence(
-		        bar.name, " has a vertex at (", bar.places[v].transpose(), "), where there is no material within ", nearDomain,
+		        bar.name, " has a vertex at (", bar.positions[v].transpose(), "), where there is no material within ", nearDomain,
 		        " cells: let its line begin and end in the soil, and take it away where soil is dug out from around it");
 	});
 	return missing;
@@ -342,20 +343,20 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 {
 	if (!structure_.beam || !system_) return;
 	const Beam& beam = *structure_.beam;
-	for (int place = 0; place < int(attached_.size()); ++place) {
-		if (place >= int(beam.places.size()) && place < structure_.vertices()) continue; // of a bar
-		if (place >= structure_.vertices() + int(beam.places.size())) break;             // of bonds
-		for (int a = 0; a < Dim && system_->soilUnknown(place) >= 0; ++a)
-			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[place]->node[0], Vec<Dim>::Unit(a), attached_[place]->inCell());
+	for (int position = 0; position < int(attached_.size()); ++position) {
+		if (position >= int(beam.positions.size()) && position < structure_.vertices()) continue; // of a bar
+		if (position >= structure_.vertices() + int(beam.positions.size())) break;                // of bonds
+		for (int a = 0; a < Dim && system_->soilUnknown(position) >= 0; ++a)
+			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[position]->node[0], Vec<Dim>::Unit(a), attached_[position]->inCell());
 	}
 	if constexpr (Dim == 2)
-		for (int v = 0; v < int(beam.places.size()); ++v)
+		for (int v = 0; v < int(beam.positions.size()); ++v)
 			for (const int side : { 0, 1 }) {
-				const int other = structure_.vertices() + v, place = side == 0 ? v : other;
+				const int other = structure_.vertices() + v, position = side == 0 ? v : other;
 				if (other >= int(attached_.size()) || system_->soilUnknown(other) < 0 || beam.sides[side].gap[v] > 0) continue;
 				const Vec<2> t = beam.tangentAt(v);
-				hold(attached_[place]->node[0], Vec<2>(-t[1], t[0]), attached_[place]->inCell());
-				if (beam.adhesion > 0 || beam.friction > 0) hold(attached_[place]->node[0], t, attached_[place]->inCell());
+				hold(attached_[position]->node[0], Vec<2>(-t[1], t[0]), attached_[position]->inCell());
+				if (beam.adhesion > 0 || beam.friction > 0) hold(attached_[position]->node[0], t, attached_[position]->inCell());
 			}
 }
 

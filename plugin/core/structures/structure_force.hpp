@@ -24,7 +24,7 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 
 private:
-	std::vector<Vec<Dim>>     places() const;
+	std::vector<Vec<Dim>>     positions() const;
 	std::vector<SoilAtVertex> soilAround(const StepContext<Dim>&);
 	void                      lookBesideBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&) const;
 	void                      partAlongBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&);

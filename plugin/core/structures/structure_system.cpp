@@ -68,9 +68,9 @@ template <int Dim> void StructureSystem<Dim>::numberSoil(const std::vector<SoilA
 			stations_[v].toTheRight = unknowns_;
 			unknowns_ += Dim;
 		}
-	for (std::size_t place = stations_.size() + ofBeam; place < soil.size(); ++place) {
-		bondSoil_.push_back(soil[place].exists ? unknowns_ : -1);
-		if (soil[place].exists) unknowns_ += Dim;
+	for (std::size_t position = stations_.size() + ofBeam; position < soil.size(); ++position) {
+		bondSoil_.push_back(soil[position].exists ? unknowns_ : -1);
+		if (soil[position].exists) unknowns_ += Dim;
 	}
 }
 
@@ -89,7 +89,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
-		const int last = int(bar.places.size()) - 1;
+		const int last = int(bar.positions.size()) - 1;
 		for (int v = 0; v <= last; ++v) {
 			Station& station = stations_[first + v];
 			if (v == 0 && bar.head == Head::joined) {
@@ -97,7 +97,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 				station.soil = -1;
 				continue;
 			}
-			station.direction = (bar.places[std::min(v + 1, last)] - bar.places[std::max(v - 1, 0)]).normalized();
+			station.direction = (bar.positions[std::min(v + 1, last)] - bar.positions[std::max(v - 1, 0)]).normalized();
 			const bool isHead = v == 0 && bar.head != Head::bonded;
 			if (isHead ? bar.head == Head::pulled : bar.slips()) station.slip = unknowns_++;
 		}
@@ -108,7 +108,7 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 {
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
-	const int   last = int(beam.places.size()) - 1;
+	const int   last = int(beam.positions.size()) - 1;
 	for (int v = 0; v <= last - beam.isClosed; ++v) {
 		const bool isEnd = (v == 0 || v == last) && !beam.isClosed;
 		for (int i = 0; i < 3; ++i) {
@@ -127,11 +127,11 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilAtVertex>& soil)
 {
 	if constexpr (Dim == 2)
-		for (int v = 0; structure_.beam && v < int(structure_.beam->places.size()); ++v)
+		for (int v = 0; structure_.beam && v < int(structure_.beam->positions.size()); ++v)
 			addBeamSprings(v, soil);
 	if constexpr (Dim == 2) addBonds(soil);
 	forBars([&](Reinforcement<Dim>& bar, int first) {
-		for (std::size_t v = 0; v < bar.places.size() && bar.slips(); ++v) {
+		for (std::size_t v = 0; v < bar.positions.size() && bar.slips(); ++v) {
 			const Station& station = stations_[first + v];
 			if (station.slip < 0 || !station.moves) continue;
 			double length = 0; // of the bar that is bonded here
@@ -257,7 +257,7 @@ template <int Dim> std::array<LinearForm, 6> StructureSystem<Dim>::beamEnds(int 
 
 template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Reinforcement<Dim>& bar, std::size_t i) const
 {
-	BarPiece<Dim> made { bar.places[i + 1] - bar.places[i], bar.strain[i], bar.length0[i] };
+	BarPiece<Dim> made { bar.positions[i + 1] - bar.positions[i], bar.strain[i], bar.length0[i] };
 	if (i == 0 || !bar.hasFreeLength) made.given = bar.jack;
 	return made;
 }
@@ -269,7 +269,7 @@ template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) cons
 	const Beam&  beam     = *structure_.beam;
 	const auto   strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
 	const double length   = beam.shrinkage * beam.length0[i];
-	BeamPiece    made { beam.places[i + 1] - beam.places[i], beam.elongation[i] + (beam.length0[i] - length), length, beam.bend[i] };
+	BeamPiece    made { beam.positions[i + 1] - beam.positions[i], beam.elongation[i] + (beam.length0[i] - length), length, beam.bend[i] };
 	made.strength[0] = strength(i);
 	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);
 	return made;
@@ -280,7 +280,7 @@ template <int Dim> ShellPiece StructureSystem<Dim>::shellPiece(std::size_t i) co
 	const Beam& beam = *structure_.beam;
 	ShellPiece  made { beamPiece(i), { beam.radius0[i], beam.radius0[i + 1] }, Vec<2>::Zero(), beam.slope0[i] };
 	for (int end = 0; end < 2; ++end)
-		made.outwards[end] = beam.places[i + end][0] - made.radius0[end];
+		made.outwards[end] = beam.positions[i + end][0] - made.radius0[end];
 	return made;
 }
 
@@ -308,13 +308,13 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 		sum.add<1>({ along }, energy);
 	};
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
-		const Vec<Dim> outwards = (bar.places[0] - bar.places[1]).normalized();
+		const Vec<Dim> outwards = (bar.positions[0] - bar.positions[1]).normalized();
 		for (int a = 0; a < Dim; ++a)
 			add(component(stations_[first], a), bar.pull * outwards[a]);
 	});
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
-	for (int v = 0; v < int(beam.places.size()) - beam.isClosed; ++v) {
+	for (int v = 0; v < int(beam.positions.size()) - beam.isClosed; ++v) {
 		const Vec<2> t     = beam.tangentAt(v);
 		const Vec<2> water = beam.waterPressure ? Vec<2>((*beam.waterPressure)[v] * Vec<2>(t[1], -t[0])) : Vec<2>(0, 0);
 		for (int i = 0; i < 3; ++i) {
@@ -436,7 +436,7 @@ template <int Dim> std::vector<std::pair<int, int>> StructureSystem<Dim>::joined
 {
 	std::vector<std::pair<int, int>> joined;
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
-		for (int i = 0; i < int(bar.places.size()); ++i) {
+		for (int i = 0; i < int(bar.positions.size()); ++i) {
 			joined.emplace_back(first + i, first + i);
 			if (i > 0) joined.emplace_back(first + i - 1, first + i);
 		}
@@ -446,7 +446,7 @@ template <int Dim> std::vector<std::pair<int, int>> StructureSystem<Dim>::joined
 
 template <int Dim> void StructureSystem<Dim>::commitBar(Reinforcement<Dim>& bar, int first, const Eigen::VectorXd& x)
 {
-	std::vector<Vec<Dim>> moved = bar.places;
+	std::vector<Vec<Dim>> moved = bar.positions;
 	for (std::size_t v = 0; v < moved.size(); ++v)
 		for (int a = 0; a < Dim; ++a)
 			moved[v][a] += component(stations_[first + v], a).at(x);
@@ -460,7 +460,7 @@ template <int Dim> void StructureSystem<Dim>::commitBar(Reinforcement<Dim>& bar,
 	}
 	for (std::size_t v = 0; v < moved.size(); ++v)
 		if (const int slip = stations_[first + v].slip; slip >= 0 && stations_[first + v].moves) bar.slip[v] += x[slip];
-	bar.places = std::move(moved);
+	bar.positions = std::move(moved);
 }
 
 template <int Dim> void StructureSystem<Dim>::commitPiece(std::size_t i, const Eigen::Matrix<double, 6, 1>& u)
@@ -490,8 +490,8 @@ template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& 
 	for (std::size_t i = 0; i < beam.length0.size(); ++i)
 		commitPiece(i, valuesOf<6>(beamEnds(int(i)), x));
 	const auto valueAt = [&](int unknown) { return unknown < 0 ? 0 : x[unknown]; };
-	for (std::size_t v = 0; v < beam.places.size(); ++v) {
-		beam.places[v] += Vec<2>(valueAt(stations_[v].own[0]), valueAt(stations_[v].own[1]));
+	for (std::size_t v = 0; v < beam.positions.size(); ++v) {
+		beam.positions[v] += Vec<2>(valueAt(stations_[v].own[0]), valueAt(stations_[v].own[1]));
 		beam.turns[v] += valueAt(stations_[v].own[2]);
 	}
 	if (!beam.isClosed) return;
@@ -517,7 +517,7 @@ template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
 /// The last vertex of a closed beam, which is its first one.
 template <int Dim> bool StructureSystem<Dim>::isSecondOfRing(int v) const
 {
-	return structure_.beam && structure_.beam->isClosed && v + 1 == int(structure_.beam->places.size());
+	return structure_.beam && structure_.beam->isClosed && v + 1 == int(structure_.beam->positions.size());
 }
 
 template class StructureSystem<2>;

@@ -29,10 +29,10 @@ public:
 	int  soilUnknowns() const { return soilUnknowns_; }
 	bool hasOwnUnknowns() const { return unknowns_ > soilUnknowns_; }
 	/// First unknown of the soil, numbered as it is given; -1: it has none.
-	int soilUnknown(int place) const
+	int soilUnknown(int position) const
 	{
-		const int right = place - int(stations_.size()), bond = right - ofBeam();
-		if (right < 0) return stations_[place].soil;
+		const int right = position - int(stations_.size()), bond = right - ofBeam();
+		if (right < 0) return stations_[position].soil;
 		return bond < 0 ? stations_[right].toTheRight : bondSoil_[bond];
 	}
 	/// Pairs of vertices that a piece without unknowns of its own joins, each once, with the vertex itself.
@@ -96,14 +96,14 @@ private:
 	Eigen::VectorXd                 direction(const EnergySum&) const;
 	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;
 
-	int ofBeam() const { return structure_.beam ? int(structure_.beam->places.size()) : 0; }
+	int ofBeam() const { return structure_.beam ? int(structure_.beam->positions.size()) : 0; }
 
 	template <class F> void forBars(F&& f) const
 	{
 		int first = ofBeam();
 		for (auto& bar : structure_.bars) {
 			f(bar, first);
-			first += int(bar.places.size());
+			first += int(bar.positions.size());
 		}
 	}
 

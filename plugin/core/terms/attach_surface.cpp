@@ -19,37 +19,38 @@ template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string
 	return text.str();
 }
 
-template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& places, const StepContext<Dim>& step, const std::string& name)
+template <int Dim> AttachedPositions<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name)
 {
-	AttachedPlaces<Dim> found;
-	std::vector<double> reach;
+	AttachedPositions<Dim> found;
+	std::vector<double>    reach;
 	found.layer = layer;
-	for (const Vec<Dim>& place : places) {
-		const auto attached = attach(place, step.basis, step.grid, layer);
+	for (const Vec<Dim>& position : positions) {
+		const auto attached = attach(position, step.basis, step.grid, layer);
 		reach.push_back(domainTolerance * step.grid.size(attached ? attached->level : 0));
-		found.places.push_back(attached.value_or(Attachment<Dim>()));
+		found.positions.push_back(attached.value_or(Attachment<Dim>()));
 		if (attached) continue;
-		found.obstacle = emptyAt(place, name, attachmentTolerance);
+		found.obstacle = emptyAt(position, name, attachmentTolerance);
 		return found;
 	}
-	auto isFar = areFarFromMaterial<Dim>(places, reach, step.cloud, step.grid, layer);
+	auto isFar = areFarFromMaterial<Dim>(positions, reach, step.cloud, step.grid, layer);
 	step.division.smallest(isFar.data(), isFar.size());
 	const auto far = std::find(isFar.begin(), isFar.end(), 1);
-	if (far != isFar.end()) found.obstacle = emptyAt(places[far - isFar.begin()], name, domainTolerance);
+	if (far != isFar.end()) found.obstacle = emptyAt(positions[far - isFar.begin()], name, domainTolerance);
 	return found;
 }
 
 } // namespace
 
-template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const StepContext<Dim>& step, const std::string& name, int layer)
+template <int Dim>
+AttachedPositions<Dim> attachPositions(const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name, int layer)
 {
-	if (step.grid.parting || layer != layerOfPlace) return attachTo(layer, places, step, name);
+	if (step.grid.parting || layer != layerOfPosition) return attachTo(layer, positions, step, name);
 	const auto& layers = step.cloud.layer;
 	// The same passes in all processes.
-	const int           last  = int(step.division.largest(layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end())));
-	AttachedPlaces<Dim> found = attachTo(0, places, step, name);
+	const int              last  = int(step.division.largest(layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end())));
+	AttachedPositions<Dim> found = attachTo(0, positions, step, name);
 	for (int next = 1; next <= last; ++next) {
-		auto other = attachTo(next, places, step, name);
+		auto other = attachTo(next, positions, step, name);
 		if (!other.obstacle.empty()) continue;
 		if (found.obstacle.empty()) {
 			found.obstacle = name + " is on two bodies of points that meet: name the one that is meant (body)";
@@ -60,7 +61,7 @@ template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>&
 	return found;
 }
 
-template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const StepContext<2>&, const std::string&, int);
-template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const StepContext<3>&, const std::string&, int);
+template AttachedPositions<2> attachPositions(const std::vector<Vec<2>>&, const StepContext<2>&, const std::string&, int);
+template AttachedPositions<3> attachPositions(const std::vector<Vec<3>>&, const StepContext<3>&, const std::string&, int);
 
 } // namespace gimpm

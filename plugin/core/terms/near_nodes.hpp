@@ -59,30 +59,30 @@ template <int Dim> class NearBlocks {
 public:
 	NearBlocks() = default; ///< none
 	NearBlocks(const NearNodes<Dim>& near, Couplings& K, int field, int other)
-	        : values_(K.values()), begin_(near.size()), places_(std::size_t(near.size()) * near.count)
+	        : values_(K.values()), begin_(near.size()), offsets_(std::size_t(near.size()) * near.count)
 	{
 		std::array<std::ptrdiff_t, NearNodes<Dim>::count> ofRow;
 		for (int a = 0; a < near.size(); ++a) {
-			K.findPlaces({ field, a }, other, near[a].data(), near.count, ofRow.data());
+			K.findOffsets({ field, a }, other, near[a].data(), near.count, ofRow.data());
 			begin_[a] = *std::max_element(ofRow.begin(), ofRow.end());
-			for (const auto place : ofRow)
-				if (place >= 0) begin_[a] = std::min(begin_[a], place);
-			std::transform(ofRow.begin(), ofRow.end(), places_.begin() + std::ptrdiff_t(a) * near.count, [begin = begin_[a]](auto place) {
-				return place < 0 ? -1 : int(place - begin);
+			for (const auto offset : ofRow)
+				if (offset >= 0) begin_[a] = std::min(begin_[a], offset);
+			std::transform(ofRow.begin(), ofRow.end(), offsets_.begin() + std::ptrdiff_t(a) * near.count, [begin = begin_[a]](auto offset) {
+				return offset < 0 ? -1 : int(offset - begin);
 			});
 		}
 	}
 	/// Of a node in the first field and its neighbour in the other one, row by row; null: it is not kept.
 	double* at(int node, int code) const
 	{
-		const int place = places_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];
-		return place < 0 ? nullptr : values_ + begin_[node] + place;
+		const int offset = offsets_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];
+		return offset < 0 ? nullptr : values_ + begin_[node] + offset;
 	}
 
 private:
 	double*                     values_ = nullptr;
-	std::vector<std::ptrdiff_t> begin_;  // of each row
-	std::vector<int>            places_; // from there
+	std::vector<std::ptrdiff_t> begin_;   // of each row
+	std::vector<int>            offsets_; // from there
 };
 
 } // namespace gimpm

@@ -74,9 +74,9 @@ public:
 	/// with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
-	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is
-	/// given from the node on [cells].
-	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& place)>;
+	/// Calls hold(node, direction, position) for what keeps the body from moving there, however softly; the
+	/// position is given from the node on [cells].
+	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& position)>;
 	virtual void restrain(const Hold&) const { }
 
 	/// The same for what still keeps it at d, as friction does until it slips.

@@ -10,7 +10,7 @@
 namespace gimpm {
 namespace {
 
-/// Derivative of a piece's outward normal (times its size) by the place of each of its vertices.
+/// Derivative of a piece's outward normal (times its size) by the position of each of its vertices.
 std::array<Mat<2>, 2> normalDerivatives(const Surface<2>::Piece&, const std::vector<Vec<2>>&)
 {
 	const Mat<2> turn = (Mat<2>() << 0, 1, -1, 0).finished();
@@ -70,8 +70,8 @@ template <int Dim>
 Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const StepContext<Dim>& step)
         : load_(load), isRing_(step.grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
-	auto attached = attachPlaces(load_.surface.vertices, step, load_.name, load_.layer);
-	attached_     = std::move(attached.places);
+	auto attached = attachPositions(load_.surface.vertices, step, load_.name, load_.layer);
+	attached_     = std::move(attached.positions);
 	obstacle_     = std::move(attached.obstacle);
 	layer_        = attached.layer;
 	for (const Piece& piece : load_.surface.pieces) {
@@ -101,21 +101,21 @@ template <int Dim> std::string Traction<Dim>::betweenLevels() const
 	return {};
 }
 
-template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::VectorXd& d) const
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::positionsAt(const Eigen::VectorXd& d) const
 {
-	Places places = load_.surface.vertices;
-	for (std::size_t v = 0; v < places.size(); ++v)
-		places[v] += attached_[v].displacement(d);
-	return places;
+	Positions positions = load_.surface.vertices;
+	for (std::size_t v = 0; v < positions.size(); ++v)
+		positions[v] += attached_[v].displacement(d);
+	return positions;
 }
 
-template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places, double pressure, const Vec<Dim>& traction) const
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Positions& positions, double pressure, const Vec<Dim>& traction) const
 {
-	Places      forces(places.size(), Vec<Dim>::Zero());
+	Positions   forces(positions.size(), Vec<Dim>::Zero());
 	const auto& surface = load_.surface;
 	for (const Piece& piece : surface.pieces) {
-		const Vec<Dim> dead = surface.normal(piece, surface.vertices0).norm() * traction, follower = -pressure * surface.normal(piece, places);
-		const auto     first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
+		const Vec<Dim> dead = surface.normal(piece, surface.vertices0).norm() * traction, follower = -pressure * surface.normal(piece, positions);
+		const auto     first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, positions, isRing_);
 		for (int i = 0; i < Dim; ++i)
 			forces[piece[i]] += first[i] * dead + now[i] * follower;
 	}
@@ -131,15 +131,15 @@ template <int Dim> void Traction<Dim>::mark(NodeMatrix<Dim>& K) const
 				if (!isAcross_[p]) markAttached(attached_[i], attached_[j], K);
 }
 
-template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMatrix<Dim>& K) const
+template <int Dim> void Traction<Dim>::addStiffness(const Positions& positions, NodeMatrix<Dim>& K) const
 {
 	if (load_.pressure == 0) return;
 	for (std::size_t p = 0; p < load_.surface.pieces.size(); ++p) {
 		if (isAcross_[p]) continue;
 		const Piece&   piece       = load_.surface.pieces[p];
-		const auto     derivatives = normalDerivatives(piece, places);
-		const auto     share       = shares<Dim>(piece, places, isRing_);
-		const Vec<Dim> normal      = load_.surface.normal(piece, places);
+		const auto     derivatives = normalDerivatives(piece, positions);
+		const auto     share       = shares<Dim>(piece, positions, isRing_);
+		const Vec<Dim> normal      = load_.surface.normal(piece, positions);
 		for (int i = 0; i < Dim; ++i)
 			for (int j = 0; j < Dim; ++j) {
 				Mat<Dim> tangent = share[i] * derivatives[j];
@@ -151,26 +151,26 @@ template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMa
 
 template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
-	const Places places = placesAt(d), forces = forcesAt(places);
+	const Positions positions = positionsAt(d), forces = forcesAt(positions);
 	for (std::size_t v = 0; v < forces.size(); ++v)
 		addAttachedForce(attached_[v], forces[v], sum);
-	if (sum.K) addStiffness(places, *sum.K);
+	if (sum.K) addStiffness(positions, *sum.K);
 	return std::nullopt;
 }
 
 template <int Dim> void Traction<Dim>::addBefore(Eigen::VectorXd& force) const
 {
 	if (!obstacle_.empty()) return;
-	const Places forces = forcesAt(load_.surface.vertices, load_.pressureBefore, load_.tractionBefore);
+	const Positions forces = forcesAt(load_.surface.vertices, load_.pressureBefore, load_.tractionBefore);
 	for (std::size_t v = 0; v < forces.size(); ++v)
 		addAttachedForce<Dim>(attached_[v], forces[v], { force });
 }
 
 template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const Places before = load_.surface.vertices, first = forcesAt(before, load_.pressureBefore, load_.tractionBefore);
-	load_.surface.vertices = placesAt(d);
-	const Places forces    = forcesAt(load_.surface.vertices);
+	const Positions before = load_.surface.vertices, first = forcesAt(before, load_.pressureBefore, load_.tractionBefore);
+	load_.surface.vertices = positionsAt(d);
+	const Positions forces = forcesAt(load_.surface.vertices);
 	load_.resultant        = std::accumulate(forces.begin(), forces.end(), Vec<Dim>(Vec<Dim>::Zero()));
 	load_.work             = 0;
 	for (std::size_t v = 0; v < before.size(); ++v)

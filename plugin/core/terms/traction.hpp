@@ -20,8 +20,8 @@ template <int Dim> struct SurfaceLoad {
 	Vec<Dim> tractionBefore = Vec<Dim>::Zero();
 	/// In that step, with the mean of the forces at its two ends [J].
 	double work = 0;
-	/// Of the body that it is on; layerOfPlace: that which is near.
-	int layer = layerOfPlace;
+	/// Of the body that it is on; layerOfPosition: that which is near.
+	int layer = layerOfPosition;
 	/// Its outer side is still to be compared with where material is.
 	bool        isNew     = false;
 	Vec<Dim>    resultant = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]
@@ -46,13 +46,13 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
-	using Places = std::vector<Vec<Dim>>;
-	using Piece  = typename Surface<Dim>::Piece;
+	using Positions = std::vector<Vec<Dim>>;
+	using Piece     = typename Surface<Dim>::Piece;
 
-	Places placesAt(const Eigen::VectorXd& d) const;
-	Places forcesAt(const Places&, double pressure, const Vec<Dim>& traction) const; // on the vertices
-	Places forcesAt(const Places& places) const { return forcesAt(places, load_.pressure, load_.traction); }
-	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
+	Positions positionsAt(const Eigen::VectorXd& d) const;
+	Positions forcesAt(const Positions&, double pressure, const Vec<Dim>& traction) const; // on the vertices
+	Positions forcesAt(const Positions& positions) const { return forcesAt(positions, load_.pressure, load_.traction); }
+	void      addStiffness(const Positions&, NodeMatrix<Dim>& K) const;
 
 	std::string betweenLevels() const;
 

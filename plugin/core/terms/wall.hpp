@@ -18,7 +18,7 @@ template <int Dim> struct Wall {
 	/// Directions in which material is held; none: along the normal of each piece.
 	std::array<bool, Dim> fixed {};
 	/// Of the body that it holds.
-	int layer = layerOfPlace;
+	int layer = layerOfPosition;
 	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
 	double                penalty = 100;
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]

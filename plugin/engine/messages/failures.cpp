@@ -229,7 +229,7 @@ string warningOfLoosePoints(const Analysis& engine)
 	if (report.loosePoints == 0) return "";
 	std::ostringstream text;
 	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest, or connected to it by a corner of a cell ("
-	     << report.loosePoints << ", the first around " << report.loosePlace
+	     << report.loosePoints << ", the first around " << report.loosePosition
 	     << "): no equilibrium tells where they go, so they are constrained where they are (report()['loosePoints'], by report()['looseForce']).";
 	return text.str();
 }

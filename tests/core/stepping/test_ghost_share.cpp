@@ -132,7 +132,7 @@ namespace {
 		ASSERT_TRUE(report.converged()) << report.cause;
 		EXPECT_EQ(report.parts, 1);
 		EXPECT_EQ(report.loosePoints, 1);
-		EXPECT_EQ(report.loosePlace, "(3.5, 3.5)");
+		EXPECT_EQ(report.loosePosition, "(3.5, 3.5)");
 		const double weight = (9 + 0.25) * 2e3 * 10;
 		EXPECT_NEAR(report.reactions[0][1] + report.looseForce[1], weight, 1e-6 * weight);
 		EXPECT_GT(report.looseForce[1], 0.75 * 0.25 * 2e3 * 10) << "what of its weight is at nodes that only it moves";

@@ -108,7 +108,7 @@ namespace {
 				structure.beam->headForce = { 0, -force * step / 10 };
 				settle(structure);
 			}
-			const Vec<2> end       = structure.beam->places.front();
+			const Vec<2> end       = structure.beam->positions.front();
 			error[pieces / 10 - 1] = std::hypot(end[0] - 0.55500, end[1] + 0.81061);
 			EXPECT_NEAR(structure.beam->turns.front(), 1.43029, 5e-3);
 		}
@@ -124,7 +124,7 @@ namespace {
 		beam.fixedHead = { true, true, false }, beam.fixedFoot = { false, true, false };
 		beam.weight = { 0, -weight };
 		settle(structure);
-		EXPECT_NEAR(beam.places[8][1], -5 * weight * std::pow(L, 4) / (384 * EI), 4e-3 * 5 * weight * std::pow(L, 4) / (384 * EI));
+		EXPECT_NEAR(beam.positions[8][1], -5 * weight * std::pow(L, 4) / (384 * EI), 4e-3 * 5 * weight * std::pow(L, 4) / (384 * EI));
 		EXPECT_NEAR(std::abs(beam.moments[8][0]), weight * L * L / 8, 5e-3 * weight * L * L / 8);
 	}
 
@@ -144,7 +144,7 @@ namespace {
 		beam.fixedHead = {}, beam.headForce = { -pull, 0 };
 		settle(structure);
 		EXPECT_NEAR(beam.axialForce[7], pull, 1e-9 * pull);
-		EXPECT_NEAR(4 - beam.places.front()[0], 4 * (1 + pull / EA) / (1 + N / EA), 1e-9);
+		EXPECT_NEAR(4 - beam.positions.front()[0], 4 * (1 + pull / EA) / (1 + N / EA), 1e-9);
 	}
 
 	/// Deflection with a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8
@@ -159,7 +159,7 @@ namespace {
 		beam.weight                     = { 0, -weight };
 		settle(structure);
 		const double sag = weight * std::pow(L, 4) / (8 * EI);
-		EXPECT_NEAR(beam.places[8][1], -sag, 1e-2 * sag);
+		EXPECT_NEAR(beam.positions[8][1], -sag, 1e-2 * sag);
 		EXPECT_NEAR(beam.moments[8][0], 0, 1e-9 * weight * L * L);
 		EXPECT_NEAR(std::abs(beam.moments[0][0]), weight * L * L / 2, 1e-2 * weight * L * L / 2);
 	}
@@ -183,7 +183,7 @@ namespace {
 			for (const auto& m : beam.moments)
 				largest = std::max(largest, m.cwiseAbs().maxCoeff());
 			EXPECT_NEAR(largest, Mp, 1e-9 * Mp);
-			EXPECT_EQ(-beam.places[8][1] > L / 20, part > 1) << beam.places[8][1];
+			EXPECT_EQ(-beam.positions[8][1] > L / 20, part > 1) << beam.positions[8][1];
 		}
 	}
 
@@ -239,7 +239,7 @@ namespace {
 			const double w = p * std::pow(a, 4) / (64 * plate.section.bendingStiffness) * (isClamped ? 1 : (5 + nu) / (1 + nu));
 			const double M = p * a * a * (isClamped ? 1 + nu : 3 + nu) / 16, atEdge = isClamped ? -p * a * a / 8 : 0;
 			const double hoopAtEdge = isClamped ? nu * atEdge : p * a * a * (1 - nu) / 8;
-			EXPECT_NEAR(plate.places.front()[1] - 1, -w, 0.003 * w);
+			EXPECT_NEAR(plate.positions.front()[1] - 1, -w, 0.003 * w);
 			EXPECT_NEAR(-plate.moments.front()[0], M, 0.01 * M);
 			EXPECT_NEAR(plate.hoopMoment.front()[0], M, 0.01 * M);
 			EXPECT_NEAR(plate.moments.back()[1], atEdge, 0.005 * M);
@@ -260,12 +260,12 @@ namespace {
 		wall.fixedFoot = { true, true, true }, wall.weight = { p, 0 };
 		settle(structure);
 		const std::size_t last = wall.length0.size(), far = last / 2;
-		EXPECT_NEAR(wall.places[far][0] - R, grows, 0.002 * grows);
+		EXPECT_NEAR(wall.positions[far][0] - R, grows, 0.002 * grows);
 		EXPECT_NEAR(wall.hoopForce[far], p * R, 0.002 * p * R);
 		EXPECT_NEAR(wall.axialForce[far], 0, 1e-6 * p * R);
 		EXPECT_NEAR(std::abs(wall.moments.back()[1]), M, 0.01 * M);
 		for (std::size_t i = last - 15; i < last; ++i) { // at the upper end of a piece
-			const double x = b * wall.places[i][1], moment = M * std::exp(-x) * (std::cos(x) - std::sin(x));
+			const double x = b * wall.positions[i][1], moment = M * std::exp(-x) * (std::cos(x) - std::sin(x));
 			EXPECT_NEAR(
 			        wall.moments[i][0] * wall.moments.back()[1] < 0 ? std::abs(wall.moments[i][0]) : -std::abs(wall.moments[i][0]), moment,
 			        0.01 * M);
@@ -304,7 +304,7 @@ namespace {
 		meridian.front()[0] = meridian.back()[0] = 0;
 		Structure<2>              structure      = shellAlong(meridian, 1, plateOf(0.1, nu));
 		auto&                     ball           = *structure.beam;
-		std::vector<SoilAtVertex> soil(ball.places.size());
+		std::vector<SoilAtVertex> soil(ball.positions.size());
 		for (auto& at : soil)
 			at = { true, 1, 0, 0, 1e7, 0.5 }; // the line goes round clockwise: to its left is outside
 		ball.adhesion = 0;
@@ -353,7 +353,7 @@ namespace {
 		bar.bondStiffness = k, bar.bond = bond, bar.pull = P;
 		bar.begin(divided<2>({ { 0, 0 }, { 1.2, 1.6 } }, L / 40));
 		const auto step = [&] {
-			std::vector<SoilAtVertex> soil(bar.places.size());
+			std::vector<SoilAtVertex> soil(bar.positions.size());
 			for (auto& at : soil)
 				at.exists = true;
 			StructureSystem<2> system(structure, soil);
@@ -505,7 +505,7 @@ namespace {
 			auto& anchor   = ground.structure.bars[0];
 			anchor.section = { 1e6 };
 			anchor.head = Reinforcement<2>::Head::joined, anchor.joint = 3, anchor.hasFreeLength = true;
-			anchor.begin({ beam.places[3], { 1.6, 0.9 }, { 1.8, 0.7 } });
+			anchor.begin({ beam.positions[3], { 1.6, 0.9 }, { 1.8, 0.7 } });
 			EXPECT_LT(ground.tangentError(), 1e-7);
 		}
 	}

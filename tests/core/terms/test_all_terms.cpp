@@ -42,7 +42,7 @@ namespace {
 			load.surface = top();
 			load.surface.refine(pieceLimit * model.grid.cellSize);
 			load.pressure = 3e4, load.traction = -1e4 * Vec<Dim>::Unit(0);
-			pores.place = WaterPlace::pores, outside.place = WaterPlace::outside;
+			pores.domain = WaterDomain::pores, outside.domain = WaterDomain::outside;
 			pores.pressure = pores.before = std::make_shared<StillWater<Dim>>(1, 1, 1.1, 2e4);
 			outside.pressure = outside.before = std::make_shared<StillWater<Dim>>(1, 1, 0.9, 1e4);
 			model.terms                       = { [this](const StepContext<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); },

@@ -10,7 +10,7 @@ namespace {
 
 	template <class T> struct BodyPairTest : testing::Test {
 		static constexpr int Dim = T::value;
-		using Places             = PairPlaces<Dim>;
+		using Places             = PairPositions<Dim>;
 		using Force              = PairForce<Dim>;
 
 		static Places places()

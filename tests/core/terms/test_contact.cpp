@@ -250,7 +250,7 @@ namespace {
 			ASSERT_TRUE(block.step().converged()) << block.report.cause;
 			EXPECT_GT(block.contacts.loads[0].force[1], 0);
 			for (const auto& record : block.contacts.records)
-				EXPECT_FALSE(record.body == 1 && record.normal[0] < 0) << "seen at " << record.place.transpose();
+				EXPECT_FALSE(record.body == 1 && record.normal[0] < 0) << "seen at " << record.position.transpose();
 		}
 	}
 

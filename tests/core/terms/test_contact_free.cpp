@@ -127,7 +127,7 @@ namespace {
 					force += loads[n].force, moment += x.cross(loads[n].force) + loads[n].torque;
 				}
 				EXPECT_LT((force - at.force).norm(), 1e-12);
-				EXPECT_LT((moment - at.place.cross(at.force)).norm(), 1e-11);
+				EXPECT_LT((moment - at.position.cross(at.force)).norm(), 1e-11);
 			}
 	}
 
@@ -163,7 +163,7 @@ namespace {
 		std::set<std::int64_t> numbers;
 		for (const auto& point : surfacePoints<3>(shape, 0.05, Vec3::Constant(-9), Vec3::Constant(9))) {
 			area += point.area, sum += point.area * point.normal, numbers.insert(point.number);
-			EXPECT_NEAR((point.place - Vec3(std::clamp(point.place[0], -1., 1.), 0, 0)).norm(), 0.3, 1e-12);
+			EXPECT_NEAR((point.position - Vec3(std::clamp(point.position[0], -1., 1.), 0, 0)).norm(), 0.3, 1e-12);
 		}
 		EXPECT_NEAR(area, 2 * M_PI * 0.3 * 2 + 4 * M_PI * 0.09, 1e-9);
 		EXPECT_LT(sum.norm(), 1e-9);

@@ -37,7 +37,7 @@ namespace {
 		{
 			for (const auto& p : points) {
 				EXPECT_NEAR(p.normal.norm(), 1, 1e-14);
-				area += p.area, normal += p.area * p.normal, place += p.area * p.place, volume += p.area * p.place.dot(p.normal) / Dim;
+				area += p.area, normal += p.area * p.normal, place += p.area * p.position, volume += p.area * p.position.dot(p.normal) / Dim;
 			}
 		}
 	};
@@ -50,7 +50,7 @@ namespace {
 		const Sums<Dim> sums(pointsOf(shape));
 		EXPECT_NEAR(sums.area, Dim == 2 ? 2 * M_PI * r : 4 * M_PI * r * r, 1e-12);
 		EXPECT_NEAR(sums.volume, Dim == 2 ? M_PI * r * r : 4 * M_PI / 3 * r * r * r, 1e-12);
-		EXPECT_LT(sums.normal.norm() + sums.place.norm(), 1e-12);
+		EXPECT_LT(sums.normal.norm() + sums.position.norm(), 1e-12);
 		Mat<Dim> second = Mat<Dim>::Zero(); // a third of the area in space, half of it in the plane, in each direction
 		for (const auto& p : pointsOf(shape))
 			second += p.area / sums.area * Dim * p.normal * p.normal.transpose();
@@ -67,7 +67,8 @@ namespace {
 		ASSERT_EQ(turned.size(), first.size());
 		for (std::size_t i = 0; i < first.size(); ++i) {
 			EXPECT_EQ(turned[i].number, first[i].number);
-			EXPECT_LT((turned[i].place - shape.axes * first[i].place).norm() + (turned[i].normal - shape.axes * first[i].normal).norm(), 1e-14);
+			EXPECT_LT(
+			        (turned[i].position - shape.axes * first[i].position).norm() + (turned[i].normal - shape.axes * first[i].normal).norm(), 1e-14);
 			EXPECT_EQ(turned[i].area, first[i].area);
 		}
 	}
@@ -81,12 +82,12 @@ namespace {
 		const Sums<Dim> sums(points);
 		EXPECT_NEAR(sums.area, 2 * (size.prod() / size.array()).sum(), 1e-12);
 		EXPECT_NEAR(sums.volume, size.prod(), 1e-12);
-		EXPECT_LT(sums.normal.norm() + sums.place.norm(), 1e-12);
+		EXPECT_LT(sums.normal.norm() + sums.position.norm(), 1e-12);
 		for (const auto& p : points) {
-			const Vec<Dim> beyond = p.place.cwiseAbs() - shape.halfSize;
+			const Vec<Dim> beyond = p.position.cwiseAbs() - shape.halfSize;
 			int            face;
 			EXPECT_NEAR(beyond.maxCoeff(&face), 0, 1e-15);
-			EXPECT_EQ(p.normal, (p.place[face] < 0 ? -1 : 1) * Vec<Dim>::Unit(face));
+			EXPECT_EQ(p.normal, (p.position[face] < 0 ? -1 : 1) * Vec<Dim>::Unit(face));
 			EXPECT_EQ((beyond.array() > -1e-9).count(), 1);
 		}
 	}
@@ -105,12 +106,12 @@ namespace {
 			const auto      points = pointsOf(shape);
 			const Sums<Dim> sums(points);
 			EXPECT_NEAR(sums.area, (isTwoSided ? 2 : 1) * area, 1e-12);
-			EXPECT_LT((sums.place / sums.area - middle).norm(), 1e-12);
+			EXPECT_LT((sums.position / sums.area - middle).norm(), 1e-12);
 			EXPECT_NEAR(sums.normal.norm(), isTwoSided ? 0 : area, 1e-12);
 			RigidBody<Dim> body;
 			body.shape = shape;
 			for (const auto& p : points)
-				EXPECT_EQ(body.sideOf({}, p.place + 0.1 * p.normal), isTwoSided && p.number % 2 ? -1 : 1);
+				EXPECT_EQ(body.sideOf({}, p.position + 0.1 * p.normal), isTwoSided && p.number % 2 ? -1 : 1);
 		}
 	}
 
@@ -124,13 +125,13 @@ namespace {
 			const auto                     some  = surfacePoints<Dim>(shape, 0.1, low, high);
 			std::vector<SurfacePoint<Dim>> inBox;
 			for (const auto& p : pointsOf(shape))
-				if ((p.place.array() >= low.array()).all() && (p.place.array() <= high.array()).all()) inBox.push_back(p);
+				if ((p.position.array() >= low.array()).all() && (p.position.array() <= high.array()).all()) inBox.push_back(p);
 			ASSERT_EQ(some.size(), inBox.size()) << int(kind);
 			EXPECT_LT(some.size(), pointsOf(shape).size());
 			EXPECT_GT(some.size(), 0u) << int(kind);
 			for (std::size_t i = 0; i < some.size(); ++i) {
 				EXPECT_EQ(some[i].number, inBox[i].number);
-				EXPECT_EQ(some[i].place, inBox[i].place);
+				EXPECT_EQ(some[i].position, inBox[i].position);
 			}
 		}
 	}
@@ -152,7 +153,7 @@ namespace {
 				}
 				const double error = kind == RigidKind::ball ? 0.02 : 1e-12; // flat parts of a curve
 				EXPECT_NEAR(area, p.area, error * p.area) << int(kind);
-				EXPECT_LT((middle - p.place).norm(), (kind == RigidKind::ball ? 0.02 : 1e-12) * 0.05 + 1e-12) << int(kind);
+				EXPECT_LT((middle - p.position).norm(), (kind == RigidKind::ball ? 0.02 : 1e-12) * 0.05 + 1e-12) << int(kind);
 			}
 	}
 
@@ -170,7 +171,7 @@ namespace {
 			some.insert(p.number);
 		int inBox = 0;
 		for (const auto& p : pointsOf(shape)) {
-			const Vec<Dim> x = pose.inSpace(p.place);
+			const Vec<Dim> x = pose.inSpace(p.position);
 			if (!((x.array() >= low.array()).all() && (x.array() <= high.array()).all())) continue;
 			++inBox;
 			EXPECT_EQ(some.count(p.number), 1u);
@@ -191,7 +192,7 @@ namespace {
 					EXPECT_EQ(std::int64_t(double(p.number)), p.number) << "they are kept as real numbers";
 					double closest = infinity;
 					for (const auto& q : points)
-						if (&q != &p && q.normal.dot(p.normal) > 0.1) closest = std::min(closest, (q.place - p.place).norm());
+						if (&q != &p && q.normal.dot(p.normal) > 0.1) closest = std::min(closest, (q.position - p.position).norm());
 					EXPECT_LE(closest, spacing < 1 ? spacing * (1 + 1e-9) : infinity);
 				}
 				EXPECT_EQ(numbers.size(), points.size());

@@ -29,13 +29,13 @@ namespace {
 		StepReport      report;
 		LinearSolver    solver;
 
-		explicit Block(WaterPlace place, double level = 5, int perAxis = 2)
+		explicit Block(WaterDomain place, double level = 5, int perAxis = 2)
 		{
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e6, 0), 2000 } };
 			model.newton.tolerance = 1e-11;
 			model.terms            = { [this](const StepContext<Dim>& step) { return std::make_unique<WaterForce<Dim>>(water, step); } };
-			water.place            = place;
+			water.domain           = place;
 			water.pressure = water.before = std::make_shared<StillWater<Dim>>(1, 1, level, weight);
 			cloud                         = block<Dim>(model.grid, Index<Dim>::Constant(3), perAxis);
 		}
@@ -104,18 +104,18 @@ namespace {
 	TYPED_TEST(WaterOf, TangentIsTheDerivative)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto place : { WaterPlace::everywhere, WaterPlace::pores, WaterPlace::outside }) {
+		for (const auto place : { WaterDomain::everywhere, WaterDomain::pores, WaterDomain::outside }) {
 			Block<Dim> block(place, 5, 1);
 			block.water.pressure = table<Dim>(block.model.grid, [](const Vec<Dim>& x) { return 100 * wavy<Dim>(x).prod(); });
 			block.water.factor   = 1.7;
 			EXPECT_LT(tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-5), 1e-7) << int(place);
-			EXPECT_EQ(block.system().isSymmetric(), place != WaterPlace::pores);
+			EXPECT_EQ(block.system().isSymmetric(), place != WaterDomain::pores);
 		}
 	}
 
 	TEST(Water, OfRingsHasItsTangent)
 	{
-		for (const auto place : { WaterPlace::everywhere, WaterPlace::pores, WaterPlace::outside }) {
+		for (const auto place : { WaterDomain::everywhere, WaterDomain::pores, WaterDomain::outside }) {
 			Block<2> block(place);
 			block.model.grid.axisymmetric = true;
 			block.cloud.hoopStretch.assign(block.cloud.size(), 1.1);
@@ -128,7 +128,7 @@ namespace {
 	{
 		constexpr int Dim   = TypeParam::value;
 		const double  slope = 7e3, volume = std::pow(1.5, Dim);
-		for (const auto place : { WaterPlace::everywhere, WaterPlace::pores, WaterPlace::outside }) {
+		for (const auto place : { WaterDomain::everywhere, WaterDomain::pores, WaterDomain::outside }) {
 			Block<Dim> block(place);
 			block.model.grid.period[0] = 3;
 			for (auto& x : block.cloud.position)
@@ -140,17 +140,17 @@ namespace {
 			const auto p = table<Dim>(
 			        block.model.grid, [&](const Vec<Dim>& x) { return 3e4 - slope * x[0] + 1e3 * x[1] + wave(x); }, fall);
 			block.water.pressure = block.water.before = p;
-			const bool isInPores                      = place != WaterPlace::outside;
+			const bool isInPores                      = place != WaterDomain::outside;
 			EXPECT_NEAR(block.resultant()[0], isInPores ? slope * volume : 0, 1e-9 * slope) << int(place);
 			EXPECT_LT(tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-5), 1e-7) << int(place);
-			EXPECT_EQ(block.system().isSymmetric(), place == WaterPlace::everywhere) << int(place);
+			EXPECT_EQ(block.system().isSymmetric(), place == WaterDomain::everywhere) << int(place);
 		}
 	}
 
 	TYPED_TEST(WaterOf, ActsInPartOnWhatIsThereInPart)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto place : { WaterPlace::everywhere, WaterPlace::outside }) {
+		for (const auto place : { WaterDomain::everywhere, WaterDomain::outside }) {
 			Block<Dim> block(place);
 			const auto whole   = block.resultant();
 			block.water.shares = { 0.25 };
@@ -163,7 +163,7 @@ namespace {
 	{
 		constexpr int Dim  = TypeParam::value;
 		const double  area = std::pow(1.5, Dim - 1);
-		for (const auto place : { WaterPlace::everywhere, WaterPlace::outside })
+		for (const auto place : { WaterDomain::everywhere, WaterDomain::outside })
 			for (const double level : { 5., 1.5, 0.6, 0.333 })
 				EXPECT_LT(
 				        (Block<Dim>(place, level).resultant() - weight * area * std::min(level, 1.5) * Vec<Dim>::Unit(1)).norm(), 1e-9 * weight)
@@ -173,20 +173,20 @@ namespace {
 	TYPED_TEST(WaterOf, InPoresAndAroundActsAsTheTwoByThemselves)
 	{
 		constexpr int         Dim    = TypeParam::value;
-		const Eigen::VectorXd d      = Eigen::VectorXd::Zero(Block<Dim>(WaterPlace::pores).system().nodalSize());
-		const auto            forces = [&](WaterPlace place) {
+		const Eigen::VectorXd d      = Eigen::VectorXd::Zero(Block<Dim>(WaterDomain::pores).system().nodalSize());
+		const auto            forces = [&](WaterDomain place) {
                         Block<Dim>      block(place, 1.1);
                         Eigen::VectorXd f = d;
                         block.system().terms.back()->add(d, { f });
                         return f;
 		};
-		EXPECT_LT((forces(WaterPlace::pores) + forces(WaterPlace::outside) - forces(WaterPlace::everywhere)).norm(), 1e-10 * weight);
+		EXPECT_LT((forces(WaterDomain::pores) + forces(WaterDomain::outside) - forces(WaterDomain::everywhere)).norm(), 1e-10 * weight);
 	}
 
 	TYPED_TEST(WaterOf, SubmergedSoilIsAsSoilOfItsSubmergedDensity)
 	{
 		constexpr int Dim = TypeParam::value;
-		Block<Dim>    wet(WaterPlace::everywhere), light(WaterPlace::everywhere);
+		Block<Dim>    wet(WaterDomain::everywhere), light(WaterDomain::everywhere);
 		light.model.materials[0].density = 1000;
 		light.model.terms.clear();
 		for (auto* block : { &wet, &light }) {
@@ -212,7 +212,7 @@ namespace {
 	TYPED_TEST(WaterOf, OutsidePressesAsASurfaceLoad)
 	{
 		constexpr int Dim = TypeParam::value;
-		Block<Dim>    block(WaterPlace::outside);
+		Block<Dim>    block(WaterDomain::outside);
 		block.water.pressure = table<Dim>(block.model.grid, [](const Vec<Dim>&) { return 2e4; });
 		block.water.before   = block.water.pressure;
 		std::vector<HeldBox<Dim>> walls;
@@ -228,7 +228,7 @@ namespace {
 
 	TEST(Water, ThatIsNotKnownFailsThePoint)
 	{
-		Block<2> block(WaterPlace::everywhere);
+		Block<2> block(WaterDomain::everywhere);
 		block.water.pressure         = std::make_shared<TabulatedWater<2>>(block.model.grid, std::vector<Key> {}, std::vector<double> {});
 		const auto            system = block.system();
 		const Eigen::VectorXd d      = Eigen::VectorXd::Zero(system.nodalSize());

@@ -9,71 +9,73 @@
 namespace gimpm {
 namespace {
 
-/// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
+/// Pieces are seen by contact points with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
 
-/// How far a place may get beyond a side of the piece that it began the step with, over the size of a cell.
+/// How far a contact point may get beyond a side of the piece that it began the step with, over the size of a cell.
 constexpr double beyondPiece = 0.125;
 
 } // namespace
 
-template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
+template <int Dim> auto BodyContact<Dim>::positionsAt(const Eigen::VectorXd& d) const -> Positions
 {
-	Places places;
+	Positions positions;
 	for (const auto& facets : facets_)
-		places.push_back(facets.placesAt(d));
-	return places;
+		positions.push_back(facets.positionsAt(d));
+	return positions;
 }
 
-template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pair(const Vec<Dim>& place, int body, int piece, const Places& places) const
+template <int Dim> PairPositions<Dim> BodyContact<Dim>::pair(const Vec<Dim>& position, int body, int piece, const Positions& positions) const
 {
-	PairPlaces<Dim> x;
-	x[0] = place;
+	PairPositions<Dim> x;
+	x[0] = position;
 	for (int v = 0; v < Dim; ++v)
-		x[v + 1] = places[body][facets_[body].pieces[piece][v]];
+		x[v + 1] = positions[body][facets_[body].pieces[piece][v]];
 	return x;
 }
 
-/// The place goes on with what the foot moves less than the vertices.
-template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place, const Near& near, const Eigen::VectorXd& d, const Places& now) const
+/// The contact point goes on with what the foot moves less than the vertices.
+template <int Dim>
+PairPositions<Dim> BodyContact<Dim>::pairNow(const ContactPoint& contactPoint, const Near& near, const Eigen::VectorXd& d, const Positions& now) const
 {
-	const int       master = meetingOf(place).master;
-	PairPlaces<Dim> x = pair(place.start, master, near.piece, now), start = pair(place.start, master, near.piece, start_);
-	x[0] += place.at.displacement(d) - near.foot.displacement(d);
+	const int          master = meetingOf(contactPoint).master;
+	PairPositions<Dim> x = pair(contactPoint.start, master, near.piece, now), start = pair(contactPoint.start, master, near.piece, start_);
+	x[0] += contactPoint.at.displacement(d) - near.foot.displacement(d);
 	for (int v = 0; v < Dim; ++v)
 		x[0] += near.weight[v] * (x[v + 1] - start[v + 1]);
 	return x;
 }
 
-/// The places at displacements d; without these, where the step begins.
-template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairThen(const Place& place, const Near& near, const Eigen::VectorXd* d, const Places& places) const
+/// The contact points at displacements d; without these, where the step begins.
+template <int Dim>
+PairPositions<Dim> BodyContact<Dim>::pairThen(const ContactPoint& contactPoint, const Near& near, const Eigen::VectorXd* d, const Positions& positions) const
 {
-	return d ? pairNow(place, near, *d, places) : pair(place.start, meetingOf(place).master, near.piece, places);
+	return d ? pairNow(contactPoint, near, *d, positions) : pair(contactPoint.start, meetingOf(contactPoint).master, near.piece, positions);
 }
 
-/// The piece that is nearest to where the place is, null if that does not face it. At an edge the one behind which the
-/// place is least.
-template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Eigen::VectorXd* d, const Places& places) const -> const Near*
+/// The piece that is nearest to where the contact point is, null if that does not face it. At an edge the one behind
+/// which the contact point is least.
+template <int Dim> auto BodyContact<Dim>::nearestOf(const ContactPoint& contactPoint, const Eigen::VectorXd* d, const Positions& positions) const -> const Near*
 {
 	const double same  = 1e-12 * cellSize_ * cellSize_;
 	double       least = std::numeric_limits<double>::infinity(), gap = 0;
 	const Near*  nearest = nullptr;
 	Vec<Dim>     normal  = Vec<Dim>::Zero();
-	for (const Near& near : place.near) {
-		const auto   x    = pairThen(place, near, d, places);
+	for (const Near& near : contactPoint.near) {
+		const auto   x    = pairThen(contactPoint, near, d, positions);
 		const double away = squaredDistance(x);
 		if (away > least + same) continue;
 		const Facing<Dim> at(x);
 		if (away > least - same && at.gap < gap) continue;
 		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
+	return nearest && normal.dot(contactPoint.normal) < facing ? nearest : nullptr;
 }
 
 /// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
 /// would jump to and fro between pieces beside each other, whose normals differ, and what has entered by one side of a
 /// corner and is pushed out by the other one would win energy.
-template <int Dim> bool BodyContact<Dim>::goesOn(const PairPlaces<Dim>& x) const
+template <int Dim> bool BodyContact<Dim>::goesOn(const PairPositions<Dim>& x) const
 {
 	const Facing<Dim> at(x);
 	for (int i = 0; i < Dim; ++i)
@@ -86,27 +88,27 @@ template <int Dim>
 auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairJacobian kind, const std::function<void(const Touching&, const Tangent&)>& f) const -> const Looked&
 {
 	if (!f && looked_.d.size() == d.size() && looked_.d == d) return looked_;
-	looked_.d = d, looked_.now = placesAt(d), looked_.touching.clear();
-	for (const Place& place : places_) {
-		const auto& meeting = meetingOf(place);
-		const Near* near    = place.first;
-		auto        end     = near ? pairNow(place, *near, d, looked_.now) : PairPlaces<Dim>();
-		const Near* nearest = nearestOf(place, &d, looked_.now);
+	looked_.d = d, looked_.now = positionsAt(d), looked_.touching.clear();
+	for (const ContactPoint& contactPoint : contactPoints_) {
+		const auto& meeting = meetingOf(contactPoint);
+		const Near* near    = contactPoint.first;
+		auto        end     = near ? pairNow(contactPoint, *near, d, looked_.now) : PairPositions<Dim>();
+		const Near* nearest = nearestOf(contactPoint, &d, looked_.now);
 		if (!nearest) continue;
-		if (!near || !goesOn(end)) near = nearest, end = pairNow(place, *near, d, looked_.now);
-		const double          penalty = penaltyOf(place);
-		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * place.area };
-		const auto            start = pair(place.start, meeting.master, near->piece, start_);
-		const auto            force = pairForce<Dim>(law, start, place.tangentialForce, end, place.closed, tolerance_, kind);
+		if (!near || !goesOn(end)) near = nearest, end = pairNow(contactPoint, *near, d, looked_.now);
+		const double          penalty = penaltyOf(contactPoint);
+		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * contactPoint.area };
+		const auto            start = pair(contactPoint.start, meeting.master, near->piece, start_);
+		const auto            force = pairForce<Dim>(law, start, contactPoint.tangentialForce, end, contactPoint.closed, tolerance_, kind);
 		if (!force) continue;
-		looked_.touching.push_back({ place, *near, *force, end });
+		looked_.touching.push_back({ contactPoint, *near, *force, end });
 		if (f) f(looked_.touching.back(), force->tangent);
 	}
 	return looked_;
 }
 
 /// The nodes are in the order of their numbers.
-template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
+template <int Dim> auto BodyContact<Dim>::nodesOf(const ContactPoint& contactPoint, const Near& near) const -> std::vector<PairNode>
 {
 	std::vector<PairNode> nodes;
 	nodes.reserve(4 << Dim);
@@ -118,8 +120,8 @@ template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near
 			known->weight[i] += part * at.weight[n];
 		}
 	};
-	const auto& master = facets_[meetingOf(place).master];
-	add(place.at, 0, 1);
+	const auto& master = facets_[meetingOf(contactPoint).master];
+	add(contactPoint.at, 0, 1);
 	add(near.foot, 0, -1);
 	for (int v = 0; v < Dim; ++v) {
 		const auto& at = *master.at[master.pieces[near.piece][v]];
@@ -137,16 +139,16 @@ template <int Dim> bool BodyContact<Dim>::isRough() const
 
 template <int Dim> bool BodyContact<Dim>::makeExact() { return isRough() && !std::exchange(isExact_, true); }
 
-/// All nodes around a place and the pieces near it, as any of these may be the nearest one.
-template <int Dim> void BodyContact<Dim>::markNodes(const Place& place, std::vector<int>& nodes) const
+/// All nodes around a contact point and the pieces near it, as any of these may be the nearest one.
+template <int Dim> void BodyContact<Dim>::markNodes(const ContactPoint& contactPoint, std::vector<int>& nodes) const
 {
 	const auto add = [&](const Attachment<Dim>& at) {
 		for (int n = 0; n < at.nodes; ++n)
 			if (at.weight[n] != 0 && std::find(nodes.begin(), nodes.end(), at.node[n]) == nodes.end()) nodes.push_back(at.node[n]);
 	};
-	const auto& master = facets_[meetingOf(place).master];
-	add(place.at);
-	for (const Near& near : place.near) {
+	const auto& master = facets_[meetingOf(contactPoint).master];
+	add(contactPoint.at);
+	for (const Near& near : contactPoint.near) {
 		add(near.foot);
 		for (const int v : master.pieces[near.piece])
 			add(*master.at[v]);
@@ -156,11 +158,11 @@ template <int Dim> void BodyContact<Dim>::markNodes(const Place& place, std::vec
 
 template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 {
-	std::set<std::vector<int>> known; // places in one cell have the same nodes
+	std::set<std::vector<int>> known; // contact points in one cell have the same nodes
 	std::vector<int>           nodes;
-	for (const Place& place : places_) {
+	for (const ContactPoint& contactPoint : contactPoints_) {
 		nodes.clear();
-		markNodes(place, nodes);
+		markNodes(contactPoint, nodes);
 		if (!known.insert(nodes).second) continue;
 		for (const int a : nodes)
 			for (const int b : nodes)
@@ -185,17 +187,17 @@ template <int Dim> void BodyContact<Dim>::addTangent(const std::vector<PairNode>
 {
 	using Block = Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
 	std::vector<int>            numbers;
-	std::vector<std::ptrdiff_t> places(nodes.size());
+	std::vector<std::ptrdiff_t> positions(nodes.size());
 	for (const PairNode& one : nodes)
 		numbers.push_back(one.node);
 	for (const PairNode& one : nodes) {
 		Eigen::Matrix<double, Dim, Tangent::ColsAtCompileTime> row = Eigen::Matrix<double, Dim, Tangent::ColsAtCompileTime>::Zero();
 		for (int i = 0; i <= Dim; ++i)
 			row -= factor * one.weight[i] * tangent.template middleRows<Dim>(Dim * i);
-		K.findPlaces({ 0, one.node }, 0, numbers.data(), int(numbers.size()), places.data());
+		K.findOffsets({ 0, one.node }, 0, numbers.data(), int(numbers.size()), positions.data());
 		for (std::size_t other = 0; other < nodes.size(); ++other) {
-			if (places[other] < 0) continue;
-			Block k(K.values() + places[other]);
+			if (positions[other] < 0) continue;
+			Block k(K.values() + positions[other]);
 			for (int j = 0; j <= Dim; ++j)
 				k += nodes[other].weight[j] * row.template middleCols<Dim>(Dim * j);
 		}
@@ -206,14 +208,14 @@ template <int Dim>
 void BodyContact<Dim>::add(
         const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings* K, PairJacobian kind) const
 {
-	if (places_.empty()) return;
+	if (contactPoints_.empty()) return;
 	if (!K) {
 		for (const Touching& touching : look(d).touching)
-			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, absoluteContributions);
+			addForces(nodesOf(touching.contactPoint, touching.near), touching.force, factor, force, absoluteContributions);
 		return;
 	}
 	look(d, kind, [&](const Touching& touching, const Tangent& tangent) {
-		const auto nodes = nodesOf(touching.place, touching.near);
+		const auto nodes = nodesOf(touching.contactPoint, touching.near);
 		addForces(nodes, touching.force, factor, force, absoluteContributions);
 		addTangent(nodes, tangent, factor, *K);
 	});
@@ -240,13 +242,13 @@ template <int Dim> void BodyContact<Dim>::addWithTangent(const Eigen::VectorXd& 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const
 {
 	const Vec<Dim>& normal = Facing<Dim>(touching.now).normal;
-	const auto&     master = facets_[meetingOf(touching.place).master];
+	const auto&     master = facets_[meetingOf(touching.contactPoint).master];
 	const auto      holds  = [&](const Attachment<Dim>& at) {
                 hold(at.node[0], normal, at.inCell());
                 for (int a = 0; sticks && a < Dim; ++a)
                         hold(at.node[0], Vec<Dim>::Unit(a), at.inCell());
 	};
-	holds(touching.place.at);
+	holds(touching.contactPoint.at);
 	for (const int v : master.pieces[touching.near.piece])
 		holds(*master.at[v]);
 }
@@ -255,7 +257,7 @@ template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool 
 template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
-		const auto& meeting = meetingOf(touching.place);
+		const auto& meeting = meetingOf(touching.contactPoint);
 		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, hold);
 	}
 }
@@ -263,7 +265,7 @@ template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hol
 template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
 	for (const Touching& touching : look(d).touching) {
-		const auto& meeting = meetingOf(touching.place);
+		const auto& meeting = meetingOf(touching.contactPoint);
 		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
 	}
 }

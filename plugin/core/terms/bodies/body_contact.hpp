@@ -14,7 +14,7 @@ template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit :
 /// By which they may stretch before they are divided: else most of them would be in the first step.
 constexpr double stretchOfPieces = 1.2;
 
-/// What a place may get behind the surface of another body, over the size of a cell.
+/// What a contact point may get behind the surface of another body, over the size of a cell.
 constexpr double deepestInBodies = 0.25;
 
 /// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
@@ -39,7 +39,7 @@ template <int Dim> struct MeetingBody {
 	}
 };
 
-/// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
+/// Two bodies that may meet, by their numbers: contact points on the one bear on pieces of the surface of the other.
 template <int Dim> struct BodyMeeting {
 	int    slave = 0, master = 0;
 	double frictionCoefficient = 0;                                       ///< [-]
@@ -49,7 +49,8 @@ template <int Dim> struct BodyMeeting {
 	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
 	std::vector<double>   pressure {};
-	/// Of all of it: force on the slave [N], its moment about the origin [N m], and how many of the places touch.
+	/// Of all of it: force on the slave [N], its moment about the origin [N m], and how many of the contact points
+	/// touch.
 	Vec<Dim> force    = Vec<Dim>::Zero();
 	Vec3     moment   = Vec3::Zero();
 	int      touching = 0, slipping = 0;
@@ -71,7 +72,7 @@ template <int Dim> struct BodyContacts {
 	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
 };
 
-/// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
+/// Positions on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
 /// step takes both. The penalty on the gap g is a pressure of stiffness * E g / h, with the smaller one of the moduli
 /// of both there and h of the smallest cells. Without friction it has a potential, the sum of penalty g^2 / 2.
 template <int Dim> class BodyContact : public CoupledTerm<Dim> {
@@ -98,16 +99,16 @@ public:
 	void addWithTangent(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings*) const;
 
 private:
-	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
-	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is
-	/// in balance with an even stress wherever pieces lie in the cells.
+	/// A piece of the master near a contact point. The foot of the contact point as the step begins moves with the
+	/// functions of the grid, and between the vertices of its piece by a little less or more than these: so what
+	/// presses evenly is in balance with an even stress wherever pieces lie in the cells.
 	struct Near {
 		int                     piece;  ///< of the master's facets
 		std::array<double, Dim> weight; ///< of the vertices, at the foot
 		Attachment<Dim>         foot;
 	};
 	/// On the surface of the slave of a meeting.
-	struct Place {
+	struct ContactPoint {
 		int               meeting, piece; ///< of its facets
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
@@ -119,67 +120,70 @@ private:
 		std::vector<Near> near {};
 		const Near*       first = nullptr; ///< the nearest as the step begins
 	};
-	using Places = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
+	using Positions = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
 	struct Touching {
-		const Place&    place;
-		const Near&     near;
-		PairAction<Dim> force;
-		PairPlaces<Dim> now;
+		const ContactPoint& contactPoint;
+		const Near&         near;
+		PairAction<Dim>     force;
+		PairPositions<Dim>  now;
 	};
 	/// What touches at some displacements, which is asked for in turn by all that a step has to know of it.
 	struct Looked {
 		Eigen::VectorXd       d;
-		Places                now;
+		Positions             now;
 		std::vector<Touching> touching {};
 	};
-	/// A node that moves some of the places of a pair, by these weights.
+	/// A node that moves some of the contact points of a pair, by these weights.
 	struct PairNode {
 		int                         node;
 		std::array<double, Dim + 1> weight;
 	};
 	using Tangent = typename PairForce<Dim>::Tangent;
 
-	void            addPlaces(int meeting, const StepContext<Dim>&);
-	void            findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void            takeModuli(const StepContext<Dim>&);
-	void            findFirst(Place&);
-	void            keepApart(Place* begin, Place* end);
-	void            begin(Place&);
-	int             wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
-	Places          placesAt(const Eigen::VectorXd& d) const;
-	PairPlaces<Dim> pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
-	PairPlaces<Dim> pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
-	PairPlaces<Dim> pairThen(const Place&, const Near&, const Eigen::VectorXd* d, const Places&) const;
-	const Near*     nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
-	bool            isRough() const;
-	bool            goesOn(const PairPlaces<Dim>&) const;
+	void               addContactPoints(int meeting, const StepContext<Dim>&);
+	void               findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void               takeModuli(const StepContext<Dim>&);
+	void               findFirst(ContactPoint&);
+	void               keepApart(ContactPoint* begin, ContactPoint* end);
+	void               begin(ContactPoint&);
+	int                wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
+	Positions          positionsAt(const Eigen::VectorXd& d) const;
+	PairPositions<Dim> pair(const Vec<Dim>& position, int body, int piece, const Positions&) const;
+	PairPositions<Dim> pairNow(const ContactPoint&, const Near&, const Eigen::VectorXd& d, const Positions&) const;
+	PairPositions<Dim> pairThen(const ContactPoint&, const Near&, const Eigen::VectorXd* d, const Positions&) const;
+	const Near*        nearestOf(const ContactPoint&, const Eigen::VectorXd* d, const Positions&) const;
+	bool               isRough() const;
+	bool               goesOn(const PairPositions<Dim>&) const;
 	const Looked& look(const Eigen::VectorXd& d, PairJacobian = PairJacobian::none, const std::function<void(const Touching&, const Tangent&)>& = {}) const;
 	PairJacobian  jacobianKind() const { return isExact_ || !isRough() ? PairJacobian::exact : PairJacobian::symmetric; }
-	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
-	void                  markNodes(const Place&, std::vector<int>& nodes) const;
+	std::vector<PairNode> nodesOf(const ContactPoint&, const Near&) const;
+	void                  markNodes(const ContactPoint&, std::vector<int>& nodes) const;
 	void add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings*, PairJacobian) const;
 	void addForces(
 	        const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const;
 	void                    addTangent(const std::vector<PairNode>&, const Tangent&, double factor, Couplings&) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
-	void                    moveSurfaces(const Places& now);
+	void                    moveSurfaces(const Positions& now);
 	double                  work(const Eigen::VectorXd& d) const;
 	double                  given(const Eigen::VectorXd& d) const;
 	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
-	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
-	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
-	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
+	double                  approach(const BodyMeeting<Dim>&, const Positions& now) const;
+	const BodyMeeting<Dim>& meetingOf(const ContactPoint& contactPoint) const { return system_.meetings[contactPoint.meeting]; }
+	double                  penaltyOf(const ContactPoint& contactPoint) const
+	{
+		return meetingOf(contactPoint).stiffness * contactPoint.young * contactPoint.area / cellSize_;
+	} ///< [N/m]
 
-	BodyContacts<Dim>&       system_;
-	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
-	const bool               isRing_;
-	bool                     isExact_ = false; // derivatives are those of the forces
-	const Eigen::Index       unknowns_;
-	std::vector<Facets<Dim>> facets_; // of the bodies
-	Places                   start_;
-	std::vector<Place>       places_;
-	std::string              obstacle_;
-	mutable Looked           looked_; // the last one
+	BodyContacts<Dim>&        system_;
+	const double              cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
+	const bool                isRing_;
+	bool                      isExact_ = false; // derivatives are those of the forces
+	const Eigen::Index        unknowns_;
+	std::vector<Facets<Dim>>  facets_; // of the bodies
+	Positions                 start_;
+	std::vector<ContactPoint> contactPoints_;
+	std::string               obstacle_;
+	mutable Looked            looked_; // the last one
 };
 
 } // namespace gimpm

@@ -14,30 +14,30 @@ constexpr double mostGiven = 1e-3;
 
 } // namespace
 
-/// Of the places as the nodes move them.
+/// Of the contact points as the nodes move them.
 template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
 	for (const Touching& touching : look(d).touching) {
-		const auto start = pair(touching.place.start, meetingOf(touching.place).master, touching.near.piece, start_);
+		const auto start = pair(touching.contactPoint.start, meetingOf(touching.contactPoint).master, touching.near.piece, start_);
 		for (int i = 0; i <= Dim; ++i)
 			sum += touching.force.force[i].dot(touching.now[i] - start[i]);
 	}
 	return sum;
 }
 
-/// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a place
-/// stays before one plane that does not turn.
+/// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a contact
+/// point stays before one plane that does not turn.
 template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) const
 {
-	const auto stored = [this](const Place& place, double normalForce, const Vec<Dim>& tangentialForce) {
-		return (normalForce * normalForce + slipSoftnessOfBodies * tangentialForce.squaredNorm()) / (2 * penaltyOf(place));
+	const auto stored = [this](const ContactPoint& contactPoint, double normalForce, const Vec<Dim>& tangentialForce) {
+		return (normalForce * normalForce + slipSoftnessOfBodies * tangentialForce.squaredNorm()) / (2 * penaltyOf(contactPoint));
 	};
 	double sum = work(d);
-	for (const Place& place : places_)
-		if (place.first) sum -= stored(place, place.normalForce, place.tangentialForce);
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (contactPoint.first) sum -= stored(contactPoint, contactPoint.normalForce, contactPoint.tangentialForce);
 	for (const Touching& now : look(d).touching)
-		sum += stored(now.place, now.force.normalForce, now.force.tangentialForce);
+		sum += stored(now.contactPoint, now.force.normalForce, now.force.tangentialForce);
 	return sum;
 }
 
@@ -52,7 +52,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::Vector
 }
 
 /// How far vertices of the two may have moved towards each other.
-template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Places& now) const
+template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Positions& now) const
 {
 	Vec<Dim> mean  = Vec<Dim>::Zero();
 	int      count = 0;
@@ -84,7 +84,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) c
 	for (const Touching& touching : looked.touching) {
 		const double gap = Facing<Dim>(touching.now).gap;
 		if (gap > -deepestInBodies * cellSize_) continue;
-		const auto& meeting = meetingOf(touching.place);
+		const auto& meeting = meetingOf(touching.contactPoint);
 		return { Failure::penetrated,
 			 sentence(
 			         "body '", system_.bodies[meeting.slave].name, "' would get ", -gap, " m into body '", system_.bodies[meeting.master].name,
@@ -94,7 +94,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) c
 	return refusalOfEnergy(d);
 }
 
-/// Stresses of a piece are the means over its places.
+/// Stresses of a piece are the means over its contact points.
 template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const Looked&                    looked = look(d);
@@ -105,15 +105,15 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		meeting.force.setZero(), meeting.moment.setZero(), meeting.touching = meeting.slipping = 0;
 		area.emplace_back(pieces, 0.);
 	}
-	for (const Place& place : places_)
-		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
+	for (const ContactPoint& contactPoint : contactPoints_)
+		area[contactPoint.meeting][facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]] += contactPoint.area;
 	system_.work  = work(d);
 	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
-	for (const auto& [place, near, force, at] : looked.touching) {
-		auto&     meeting = system_.meetings[place.meeting];
-		const int whole   = facets_[meeting.slave].whole[place.piece];
-		meeting.shear[whole] += force.tangentialForce / area[place.meeting][whole];
-		meeting.pressure[whole] += force.normalForce / area[place.meeting][whole];
+	for (const auto& [contactPoint, near, force, at] : looked.touching) {
+		auto&     meeting = system_.meetings[contactPoint.meeting];
+		const int whole   = facets_[meeting.slave].whole[contactPoint.piece];
+		meeting.shear[whole] += force.tangentialForce / area[contactPoint.meeting][whole];
+		meeting.pressure[whole] += force.normalForce / area[contactPoint.meeting][whole];
 		meeting.force += force.force[0];
 		Vec3 arm = Vec3::Zero(), f = Vec3::Zero();
 		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];
@@ -124,7 +124,7 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 }
 
 /// Parts of a piece that is divided have its stresses.
-template <int Dim> void BodyContact<Dim>::moveSurfaces(const Places& now)
+template <int Dim> void BodyContact<Dim>::moveSurfaces(const Positions& now)
 {
 	for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
 		auto& surface = system_.bodies[b].surface;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Places on the surfaces of bodies, and the pieces before them, as a step begins.
+// Positions on the surfaces of bodies, and the pieces before them, as a step begins.
 #include "core/base/sentence.hpp"
 #include "core/terms/bodies/body_contact.hpp"
 #include "core/terms/cell_moduli.hpp"
@@ -14,11 +14,11 @@ namespace {
 /// As a step begins, where the foot is found anew, it may be this much deeper.
 constexpr double deepestAtStart = 1.2 * deepestInBodies;
 
-/// From this part of places on that slip as a step begins derivatives are exact, and so not symmetric, from its first
-/// iteration on.
+/// From this part of contact points on that slip as a step begins derivatives are exact, and so not symmetric, from its
+/// first iteration on.
 constexpr double manySlip = 0.25;
 
-/// Of places on a piece: weights of its vertices, and the part of the size that each stands for.
+/// Of contact points on a piece: weights of its vertices, and the part of the size that each stands for.
 template <int Dim> struct Quadrature {
 	static constexpr int                     count = Dim;
 	std::array<std::array<double, Dim>, Dim> weight;
@@ -33,7 +33,7 @@ template <int Dim> struct Quadrature {
 	}
 };
 
-/// The number of the leaf that a place is attached to.
+/// The number of the leaf that a contact point is attached to.
 template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
 	return find(basis.populatedLeaves(), Grid<Dim>::key(grid.first(at.cell * (1 << at.level)), at.level, layer));
@@ -57,20 +57,21 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 		start_.push_back(facets_.back().start);
 	}
 	for (int m = 0; m < int(system.meetings.size()); ++m)
-		addPlaces(m, step);
+		addContactPoints(m, step);
 	takeModuli(step);
-	for (Place& place : places_)
-		findFirst(place);
-	for (auto first = places_.begin(), last = first; first != places_.end(); first = last) {
-		last = std::find_if(
-		        first, places_.end(), [&](const Place& place) { return place.meeting != first->meeting || wholeOf(place) != wholeOf(*first); });
+	for (ContactPoint& contactPoint : contactPoints_)
+		findFirst(contactPoint);
+	for (auto first = contactPoints_.begin(), last = first; first != contactPoints_.end(); first = last) {
+		last = std::find_if(first, contactPoints_.end(), [&](const ContactPoint& contactPoint) {
+			return contactPoint.meeting != first->meeting || wholeOf(contactPoint) != wholeOf(*first);
+		});
 		keepApart(&*first, &*first + (last - first));
 	}
-	for (Place& place : places_)
-		begin(place);
+	for (ContactPoint& contactPoint : contactPoints_)
+		begin(contactPoint);
 }
 
-template <int Dim> void BodyContact<Dim>::addPlaces(int number, const StepContext<Dim>& step)
+template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const StepContext<Dim>& step)
 {
 	const auto&   meeting = system_.meetings[number];
 	const auto&   slave   = facets_[meeting.slave];
@@ -90,22 +91,23 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const StepContex
 			const auto at = ofSlave(x);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
-			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
-			findNear(place, near, ofMaster);
-			if (place.near.empty()) continue;
+			ContactPoint contactPoint { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
+			findNear(contactPoint, near, ofMaster);
+			if (contactPoint.near.empty()) continue;
 			if (!meeting.shear.empty())
-				place.tangentialForce = area * meeting.shear[slave.whole[i]], place.normalForce = area * meeting.pressure[slave.whole[i]];
-			places_.push_back(std::move(place));
+				contactPoint.tangentialForce = area * meeting.shear[slave.whole[i]],
+				contactPoint.normalForce     = area * meeting.pressure[slave.whole[i]];
+			contactPoints_.push_back(std::move(contactPoint));
 		}
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
+template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
 {
-	const int   body   = meetingOf(place).master;
+	const int   body   = meetingOf(contactPoint).master;
 	const auto& facets = facets_[body];
 	for (const int piece : pieces) {
-		const auto x = pair(place.start, body, piece, start_);
+		const auto x = pair(contactPoint.start, body, piece, start_);
 		if (squaredDistance(x) > reach_ * reach_) continue;
 		Near near { piece, Facing<Dim>(x).weight, {} };
 		for (double& weight : near.weight)
@@ -117,7 +119,7 @@ template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vect
 		const auto at = ofMaster(foot);
 		if (!at) continue;
 		near.foot = *at;
-		place.near.push_back(near);
+		contactPoint.near.push_back(near);
 	}
 }
 
@@ -126,66 +128,69 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const StepContext<Dim>& ste
 {
 	std::vector<char>               isAskedFor(step.basis.populatedLeaves().size(), 0);
 	std::vector<std::array<int, 2>> leaves;
-	for (const Place& place : places_) {
-		const auto& meeting = meetingOf(place);
-		const Near* nearest = &place.near[0];
+	for (const ContactPoint& contactPoint : contactPoints_) {
+		const auto& meeting = meetingOf(contactPoint);
+		const Near* nearest = &contactPoint.near[0];
 		double      least   = std::numeric_limits<double>::infinity();
-		for (const Near& near : place.near)
-			if (const double away = squaredDistance(pair(place.start, meeting.master, near.piece, start_)); away < least)
+		for (const Near& near : contactPoint.near)
+			if (const double away = squaredDistance(pair(contactPoint.start, meeting.master, near.piece, start_)); away < least)
 				least = away, nearest = &near;
-		leaves.push_back({ leafAt(place.at, step.basis, step.grid, system_.bodies[meeting.slave].layer),
+		leaves.push_back({ leafAt(contactPoint.at, step.basis, step.grid, system_.bodies[meeting.slave].layer),
 		                   leafAt(nearest->foot, step.basis, step.grid, system_.bodies[meeting.master].layer) });
 		for (const int leaf : leaves.back())
 			isAskedFor[leaf] = 1;
 	}
-	if (places_.empty()) return; // in all processes, which know the same places
+	if (contactPoints_.empty()) return; // in all processes, which know the same contact points
 	auto moduli = cellModuli(isAskedFor, step.basis, step.stiffnessOf, step.grid);
 	step.division.complete(step.basis.populatedLeaves(), moduli);
-	for (std::size_t i = 0; i < places_.size(); ++i)
-		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
+	for (std::size_t i = 0; i < contactPoints_.size(); ++i)
+		contactPoints_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
-/// The piece that the place begins with, and the gap to it.
-template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
+/// The piece that the contact point begins with, and the gap to it.
+template <int Dim> void BodyContact<Dim>::findFirst(ContactPoint& contactPoint)
 {
-	const auto& meeting = meetingOf(place);
-	place.first         = nearestOf(place, nullptr, start_);
-	if (!place.first) return;
-	place.closed = Facing<Dim>(pair(place.start, meeting.master, place.first->piece, start_)).gap;
-	if (place.closed > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	const auto& meeting = meetingOf(contactPoint);
+	contactPoint.first  = nearestOf(contactPoint, nullptr, start_);
+	if (!contactPoint.first) return;
+	contactPoint.closed = Facing<Dim>(pair(contactPoint.start, meeting.master, contactPoint.first->piece, start_)).gap;
+	if (contactPoint.closed > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
 	obstacle_ = sentence(
-	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -place.closed, " m inside of body '", system_.bodies[meeting.master].name,
-	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -contactPoint.closed, " m inside of body '",
+	        system_.bodies[meeting.master].name, "', at (", contactPoint.start.transpose(),
+	        "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
-/// Of the places on one piece of a surface, which have its mean pressure, those that would not be pressed with it by
-/// the gaps between them were not as the last step ended: the others have their forces. Else they would have to open
-/// again in each step.
-template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
+/// Of the contact points on one piece of a surface, which have its mean pressure, those that would not be pressed with
+/// it by the gaps between them were not as the last step ended: the others have their forces. Else they would have to
+/// open again in each step.
+template <int Dim> void BodyContact<Dim>::keepApart(ContactPoint* begin, ContactPoint* end)
 {
 	double normalForce = 0, gap = 0, penalty = 0;
-	for (Place* place = begin; place != end; ++place) {
-		if (!place->first) return;
-		normalForce += place->normalForce, gap += penaltyOf(*place) * place->closed, penalty += penaltyOf(*place);
+	for (ContactPoint* contactPoint = begin; contactPoint != end; ++contactPoint) {
+		if (!contactPoint->first) return;
+		normalForce += contactPoint->normalForce, gap += penaltyOf(*contactPoint) * contactPoint->closed, penalty += penaltyOf(*contactPoint);
 	}
 	const double opens   = (gap + normalForce) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
-	const auto   isOpen  = [&](const Place& place) { return place.closed > opens; };
+	const auto   isOpen  = [&](const ContactPoint& contactPoint) { return contactPoint.closed > opens; };
 	double       pressed = 0;
-	for (const Place* place = begin; place != end; ++place)
-		if (!isOpen(*place)) pressed += place->normalForce;
+	for (const ContactPoint* contactPoint = begin; contactPoint != end; ++contactPoint)
+		if (!isOpen(*contactPoint)) pressed += contactPoint->normalForce;
 	if (pressed == 0 || pressed == normalForce) return;
 	const double more = normalForce / pressed;
-	for (Place* place = begin; place != end; ++place) {
-		const double part = isOpen(*place) ? 0 : more;
-		place->normalForce *= part, place->tangentialForce *= part;
+	for (ContactPoint* contactPoint = begin; contactPoint != end; ++contactPoint) {
+		const double part = isOpen(*contactPoint) ? 0 : more;
+		contactPoint->normalForce *= part, contactPoint->tangentialForce *= part;
 	}
 }
 
 /// Gaps are found anew in each step, as surfaces are cut anew; the pressure is kept, and not the gap. So contact gives
 /// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
-template <int Dim> void BodyContact<Dim>::begin(Place& place)
+template <int Dim> void BodyContact<Dim>::begin(ContactPoint& contactPoint)
 {
-	if (place.first) place.closed = place.normalForce > 0 ? place.closed + place.normalForce / penaltyOf(place) : std::min(0., place.closed);
+	if (contactPoint.first)
+		contactPoint.closed = contactPoint.normalForce > 0 ? contactPoint.closed + contactPoint.normalForce / penaltyOf(contactPoint)
+		                                                   : std::min(0., contactPoint.closed);
 }
 
 template BodyContact<2>::BodyContact(BodyContacts<2>&, const StepContext<2>&);

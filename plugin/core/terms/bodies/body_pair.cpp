@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-template <int Dim> Vec<Dim> normalOf(const PairPlaces<Dim>& x)
+template <int Dim> Vec<Dim> normalOf(const PairPositions<Dim>& x)
 {
 	if constexpr (Dim == 2) return pieceNormal(x[1], x[2]).normalized();
 	else
@@ -24,7 +24,7 @@ template <int Dim> double squaredDistance(const Vec<Dim>& x, const Vec<Dim>& a, 
 
 Mat3 crossing(const Vec3& v) { return (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished(); }
 
-/// Derivatives of what Facing has by the places, side by side, in the order of these.
+/// Derivatives of what Facing has by the contact points, side by side, in the order of these.
 template <int Dim> struct FacingDerivative {
 	static constexpr int size = PairForce<Dim>::size;
 	using Row                 = Eigen::Matrix<double, 1, size>;
@@ -39,7 +39,7 @@ template <int Dim> struct FacingDerivative {
 	/// With n = normal, w = weight, b = weightGradient: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j
 	/// dx_j), dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i =
 	/// - sum of b_j (b_i . dx_j) - n (b_i . dn).
-	FacingDerivative(const Facing<Dim>& at, const PairPlaces<Dim>& x)
+	FacingDerivative(const Facing<Dim>& at, const PairPositions<Dim>& x)
 	{
 		Rows foot = Rows::Zero(); // dx_0 - sum of w_j dx_j
 		foot.template leftCols<Dim>().setIdentity();
@@ -69,12 +69,13 @@ template <int Dim> struct Rubbing {
 	typename FacingDerivative<Dim>::Rows tangent = FacingDerivative<Dim>::Rows::Zero();
 };
 
-/// Slip of the place along the matter of the piece, S = sum of (w_i - w_i at the start) x_i, and its derivative.
+/// Slip of the contact point along the matter of the piece, S = sum of (w_i - w_i at the start) x_i, and its
+/// derivative.
 template <int Dim> struct Slip {
 	Vec<Dim>                             value      = Vec<Dim>::Zero();
 	typename FacingDerivative<Dim>::Rows derivative = FacingDerivative<Dim>::Rows::Zero();
 
-	Slip(const Facing<Dim>& start, const Facing<Dim>& at, const PairPlaces<Dim>& x, const FacingDerivative<Dim>* d)
+	Slip(const Facing<Dim>& start, const Facing<Dim>& at, const PairPositions<Dim>& x, const FacingDerivative<Dim>* d)
 	{
 		for (int i = 0; i < Dim; ++i) {
 			const double since = at.weight[i] - start.weight[i];
@@ -116,15 +117,15 @@ Rubbing<Dim> rub(
 
 } // namespace
 
-double squaredDistance(const PairPlaces<2>& x) { return squaredDistance<2>(x[0], x[1], x[2]); }
-double squaredDistance(const PairPlaces<3>& x)
+double squaredDistance(const PairPositions<2>& x) { return squaredDistance<2>(x[0], x[1], x[2]); }
+double squaredDistance(const PairPositions<3>& x)
 {
 	const Facing<3> at(x);
 	if (*std::min_element(at.weight.begin(), at.weight.end()) >= 0) return at.gap * at.gap;
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
 }
 
-template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normalOf<Dim>(x))
+template <int Dim> Facing<Dim>::Facing(const PairPositions<Dim>& x) : normal(normalOf<Dim>(x))
 {
 	Mat<Dim> sides;
 	for (int i = 1; i < Dim; ++i)
@@ -148,7 +149,7 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 /// slip, and no moment g T is left.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
+        const ContactLaw<Dim>& law, const PairPositions<Dim>& start, const Vec<Dim>& before, const PairPositions<Dim>& now, double closed, double tolerance,
         PairJacobian asked)
 {
 	const Facing<Dim> at(now);
@@ -182,7 +183,9 @@ std::optional<PairForce<Dim>> pairForce(
 
 template struct Facing<2>;
 template struct Facing<3>;
-template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, PairJacobian);
-template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, PairJacobian);
+template std::optional<PairForce<2>> pairForce(
+        const ContactLaw<2>&, const PairPositions<2>&, const Vec<2>&, const PairPositions<2>&, double, double, PairJacobian);
+template std::optional<PairForce<3>> pairForce(
+        const ContactLaw<3>&, const PairPositions<3>&, const Vec<3>&, const PairPositions<3>&, double, double, PairJacobian);
 
 } // namespace gimpm

@@ -23,20 +23,20 @@ constexpr double deepest = 0.1;
 /// Soil that moves through the grid by less than this part of its slip is at rest: the body slides along it.
 constexpr double leastMotion = 0.05;
 
-/// In the springs of a place on gap and slip [J].
+/// In the springs of a contact point on gap and slip [J].
 template <int Dim> double stored(const ContactLaw<Dim>& law, double normalForce, double tangentialForce)
 {
 	return law.normalStiffness > 0 ? (normalForce * normalForce / law.normalStiffness + tangentialForce * tangentialForce / law.tangentialStiffness) / 2
 	                               : 0;
 }
 
-/// A body keeps the places with which it has touched.
+/// A body keeps the contact points with which it has touched.
 template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, double cellSize)
 {
-	if (!mayHaveFinePlaces(system.bodies[body].shape, cellSize)) return false;
+	if (!mayHaveFinePoints(system.bodies[body].shape, cellSize)) return false;
 	const auto record = std::find_if(system.records.begin(), system.records.end(), [&](const auto& r) { return r.body == body; });
 	if (record == system.records.end()) return std::isfinite(system.energy);
-	return record->number % (std::int64_t(1) << placeBits) >= firstFineNumber;
+	return record->number % (std::int64_t(1) << contactPointBits) >= firstFineNumber;
 }
 
 /// A point whose middle is in a body.
@@ -44,18 +44,18 @@ template <int Dim> struct Inside {
 	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its middle
 	double   gap;                   ///< of the middle, < 0 [m]
 
-	/// Whether it is in front of, or rather behind, a place, as in SoilNear.
-	bool isAt(const Vec<Dim>& place, const Vec<Dim>& normal, double cellSize) const
+	/// Whether it is in front of, or rather behind, a contact point, as in SoilNear.
+	bool isAt(const Vec<Dim>& position, const Vec<Dim>& normal, double cellSize) const
 	{
-		const Vec<Dim> away = centre - place, beside = away - away.dot(normal) * normal;
+		const Vec<Dim> away = centre - position, beside = away - away.dot(normal) * normal;
 		return outward.dot(normal) > 0.7 && (beside.cwiseAbs().array() <= half.array() + cellSize / 4).all();
 	}
 };
 
-template <int Dim> bool isInPeriod(const Vec<Dim>& place, const Grid<Dim>& grid)
+template <int Dim> bool isInPeriod(const Vec<Dim>& position, const Grid<Dim>& grid)
 {
 	for (int a = 0; a < Dim; ++a) {
-		const double from = place[a] - grid.origin[a];
+		const double from = position[a] - grid.origin[a];
 		if (grid.period[a] > 0 && !(from >= 0 && from < grid.cellSize * grid.period[a])) return false;
 	}
 	return true;
@@ -79,14 +79,14 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 	find(step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);
-		addPlaces(body);
+		addContactPoints(body);
 	}
 	for (int body = 0; body < int(system.bodies.size()); ++body)
 		widen(body);
 	if (std::isfinite(system_.energy)) findLost();
 	spreadPressure();
-	for (const Place& place : places_)
-		isSymmetric_ = isSymmetric_ && (place.law.frictionCoefficient == 0 || place.law.cap == 0);
+	for (const ContactPoint& contactPoint : contactPoints_)
+		isSymmetric_ = isSymmetric_ && (contactPoint.law.frictionCoefficient == 0 || contactPoint.law.cap == 0);
 }
 
 /// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
@@ -144,20 +144,20 @@ template <int Dim> void Contact<Dim>::look(int number)
 }
 
 /// Each body of points for itself.
-template <int Dim> void Contact<Dim>::addPlaces(int number)
+template <int Dim> void Contact<Dim>::addContactPoints(int number)
 {
 	const auto [first, last] = nearTo(number);
 	std::vector<int> layers;
 	for (auto near = first; near != last; ++near)
 		if (std::find(layers.begin(), layers.end(), near->layer) == layers.end()) layers.push_back(near->layer);
 	for (const int layer : layers)
-		if (layer < layersOfPlaces) addPlaces(number, layer);
+		if (layer < layersOfContactPoints) addContactPoints(number, layer);
 		else
 			obstacle_ = system_.bodies[number].name
 			        + " is near a body of points that is one of more than four of which each meets each other; it can touch four of them";
 }
 
-template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
+template <int Dim> void Contact<Dim>::addContactPoints(int number, int layer)
 {
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
@@ -171,16 +171,16 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	}
 	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as
 	// recall() does where it does: they get in on their way through the grid, be it with the body.
-	const auto moveOut = [&](Place& place) {
-		const auto* record = recordOf(place);
+	const auto moveOut = [&](ContactPoint& contactPoint) {
+		const auto* record = recordOf(contactPoint);
 		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || body.nodes > 0 || !record || !record->touches || record->gap >= 0)
 			return;
-		const Vec<Dim> normal = body.begin.rotation * body.end.rotation.transpose() * place.normal;
-		double         lowest = place.gap;
+		const Vec<Dim> normal = body.begin.rotation * body.end.rotation.transpose() * contactPoint.normal;
+		double         lowest = contactPoint.gap;
 		for (const auto& point : inside)
-			if (point.isAt(place.soil, normal, grid_.cellSize)) lowest = std::min(lowest, point.gap);
+			if (point.isAt(contactPoint.soil, normal, grid_.cellSize)) lowest = std::min(lowest, point.gap);
 		const auto share = [&](double way) { return std::min(0.1, way / grid_.cellSize); };
-		place.gap += std::max(0., share(place.carried.norm()) - share(record->travel)) * (lowest - place.gap);
+		contactPoint.gap += std::max(0., share(contactPoint.carried.norm()) - share(record->travel)) * (lowest - contactPoint.gap);
 	};
 	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
 	const auto [low, high]        = soil.bounds();
@@ -188,86 +188,88 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	const std::vector<int> around = bodiesAround(number);
 	const bool             isFine = isFineOn(system_, number, grid_.cellSize);
 	for (const auto& point : (isFine ? finePointsAt<Dim> : surfacePointsAt<Dim>)(body.shape, body.begin, grid_.cellSize, low - margin, high + margin)) {
-		const std::size_t count = places_.size();
-		addPlace(number, layer, point, soil, around);
-		if (places_.size() > count) moveOut(places_.back());
+		const std::size_t count = contactPoints_.size();
+		addContactPoint(number, layer, point, soil, around);
+		if (contactPoints_.size() > count) moveOut(contactPoints_.back());
 	}
 }
 
-template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place& place) const
+template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const ContactPoint& contactPoint) const
 {
-	const auto isBefore = [](const ContactRecord<Dim>& r, const Place& p) { return std::tie(r.body, r.number) < std::tie(p.body, p.number); };
-	const auto found    = std::lower_bound(system_.records.begin(), system_.records.end(), place, isBefore);
-	return found != system_.records.end() && found->body == place.body && found->number == place.number ? &*found : nullptr;
+	const auto isBefore = [](const ContactRecord<Dim>& r, const ContactPoint& p) { return std::tie(r.body, r.number) < std::tie(p.body, p.number); };
+	const auto found    = std::lower_bound(system_.records.begin(), system_.records.end(), contactPoint, isBefore);
+	return found != system_.records.end() && found->body == contactPoint.body && found->number == contactPoint.number ? &*found : nullptr;
 }
 
-template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
+template <int Dim>
+void Contact<Dim>::addContactPoint(int number, int layer, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
 {
 	const auto&    body   = system_.bodies[number];
-	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
+	const Vec<Dim> onBody = body.begin.inSpace(point.position), normal = body.begin.rotation * point.normal;
 	if ((isRing_ && onBody[0] <= 0) || !isInPeriod(onBody, grid_)) return;
 	const auto screens = screensBefore(onBody, around);
 	const auto hides   = [&](const Vec<Dim>& centre) { return isBehind(screens, onBody, centre); };
 	const auto sight   = soil.from(onBody, normal, searchReach(body, grid_), screens.empty() ? typename SoilNear<Dim>::Hides() : hides);
 	if (!sight || isHidden(number, onBody, normal, around)) return;
-	Place place;
-	place.body = number, place.number = point.number | std::int64_t(layer) << placeBits;
-	place.away = place.gap = std::max(0., sight->gap);
-	place.soil             = onBody + place.away * normal;
-	place.normal           = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
-	place.presence         = sight->presence;
-	const auto* record     = recordOf(place);
+	ContactPoint contactPoint;
+	contactPoint.body = number, contactPoint.number = point.number | std::int64_t(layer) << contactPointBits;
+	contactPoint.away = contactPoint.gap = std::max(0., sight->gap);
+	contactPoint.soil                    = onBody + contactPoint.away * normal;
+	contactPoint.normal                  = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
+	contactPoint.presence                = sight->presence;
+	const auto* record                   = recordOf(contactPoint);
 	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
 	// there in full to not being there.
-	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
-	if (place.presence <= 0) return;
+	if (record && record->touches) contactPoint.presence = std::max(contactPoint.presence, record->presence - 4 * record->travel / grid_.cellSize);
+	if (contactPoint.presence <= 0) return;
 	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
 	// stress.
-	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
-	const Vec<Dim> beside   = place.soil + body.begin.rotation * point.aside;
+	if (record && record->touches && record->gap < 0) contactPoint.soil = onBody + record->gap * normal;
+	const Vec<Dim> beside   = contactPoint.soil + body.begin.rotation * point.aside;
 	auto           attached = attach(beside, basis_, grid_, layer);
-	if (attached) place.soil = beside;
+	if (attached) contactPoint.soil = beside;
 	else
-		attached = attach(place.soil, basis_, grid_, layer); // at an end of the soil
-	if (!attached) return;                                       // behind a wall
-	place.attached       = *attached;
-	place.pressed        = Footprint<Dim>(*attached);
-	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
-	place.carried        = body.carried(place.soil);
-	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
-	place.young          = sight->young;
-	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
-	place.law            = { penalty, penalty / slipSoftness, body.frictionCoefficient, body.adhesion * place.area };
-	if (record) recall(place, *record, sight->gap);
-	places_.push_back(place);
+		attached = attach(contactPoint.soil, basis_, grid_, layer); // at an end of the soil
+	if (!attached) return;                                              // behind a wall
+	contactPoint.attached = *attached;
+	contactPoint.pressed  = Footprint<Dim>(*attached);
+	contactPoint.away     = body.proximity(body.begin, contactPoint.soil, 1).gap; // found as at the end: no gap by round-off
+	contactPoint.carried  = body.carried(contactPoint.soil);
+	contactPoint.area     = contactPoint.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	contactPoint.young    = sight->young;
+	const double penalty  = body.stiffness * contactPoint.young * contactPoint.area / grid_.cellSize;
+	contactPoint.law      = { penalty, penalty / slipSoftness, body.frictionCoefficient, body.adhesion * contactPoint.area };
+	if (record) recall(contactPoint, *record, sight->gap);
+	contactPoints_.push_back(contactPoint);
 }
 
 /// What pressed stays pressed, wherever domains are seen now. Soil that slides through the grid follows its domains
 /// slowly, so that it does not creep in; in steps in time that would be work of nobody. Soil at rest, along which the
 /// body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
-template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
+template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const ContactRecord<Dim>& record, double seen) const
 {
-	const auto& body      = system_.bodies[place.body];
-	place.tangentialForce = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.tangentialForce) : record.tangentialForce;
+	const auto& body = system_.bodies[contactPoint.body];
+	contactPoint.tangentialForce
+	        = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.tangentialForce) : record.tangentialForce;
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
-	place.gap           = std::max(record.gap, -record.normalForce / place.law.normalStiffness);
+	contactPoint.gap    = std::max(record.gap, -record.normalForce / contactPoint.law.normalStiffness);
 	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.creep / grid_.cellSize);
-	place.gap += creeps * std::min(0., seen - place.gap);
+	contactPoint.gap += creeps * std::min(0., seen - contactPoint.gap);
 }
 
-/// Of the place's own face, which has no end; so a round one keeps soil that slides around it.
-template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, const Eigen::VectorXd& d) const
+/// Of the contact point's own face, which has no end; so a round one keeps soil that slides around it.
+template <int Dim> Approach<Dim> Contact<Dim>::approach(const ContactPoint& contactPoint, const Eigen::VectorXd& d) const
 {
-	const auto&    body = system_.bodies[place.body];
-	const Vec<Dim> u    = place.pressed.displacement(d);
-	const Moved    now  = moved(place);
+	const auto&    body = system_.bodies[contactPoint.body];
+	const Vec<Dim> u    = contactPoint.pressed.displacement(d);
+	const Moved    now  = moved(contactPoint);
 	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.tangentialForce };
 	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
-		a.at = body.proximity(body.end, place.soil + u, 1);
-		a.at.gap += place.gap - place.away;
+		a.at = body.proximity(body.end, contactPoint.soil + u, 1);
+		a.at.gap += contactPoint.gap - contactPoint.away;
 	} else {
-		a.at.gap    = place.gap + now.normal.dot(a.slip);
+		a.at.gap    = contactPoint.gap + now.normal.dot(a.slip);
 		a.at.normal = now.normal;
 	}
 	return a;
@@ -276,23 +278,23 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, cons
 template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
 {
 	settle(d);
-	for (const Place& place : places_) {
-		const Approach<Dim> near = approach(place, d);
-		if (const auto touched = touch(place.law, near, tolerance_)) f(place, near, *touched);
+	for (const ContactPoint& contactPoint : contactPoints_) {
+		const Approach<Dim> near = approach(contactPoint, d);
+		if (const auto touched = touch(contactPoint.law, near, tolerance_)) f(contactPoint, near, *touched);
 	}
 }
 
 template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 {
-	for (const Place& place : places_)
-		markAttached<Dim>(place.pressed, place.pressed, K);
+	for (const ContactPoint& contactPoint : contactPoints_)
+		markAttached<Dim>(contactPoint.pressed, contactPoint.pressed, K);
 }
 
 template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
-	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
-		addAttachedForce<Dim>(place.pressed, system_.weight * touched.force(), sum);
-		if (sum.K) addAttachedStiffness<Dim>(place.pressed, place.pressed, system_.weight * touched.tangent, *sum.K);
+	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
+		addAttachedForce<Dim>(contactPoint.pressed, system_.weight * touched.force(), sum);
+		if (sum.K) addAttachedStiffness<Dim>(contactPoint.pressed, contactPoint.pressed, system_.weight * touched.tangent, *sum.K);
 	});
 	return std::nullopt;
 }
@@ -302,25 +304,25 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 	const auto add = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) {
 		addAttachedForce<Dim>(at, r.normalForce * r.normal + r.tangentialForce, { force });
 	};
-	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches) add(place.pressed, *r);
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (const auto* r = recordOf(contactPoint); r && r->touches) add(contactPoint.pressed, *r);
 	for (const auto& [attached, record] : lost_)
 		add(Footprint<Dim>(attached), system_.records[record]);
 }
 
-/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their
-/// forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is
-/// not what the soil has lost.
+/// Contact points that touched and have no soil in front of them any more, as where it leaps off: in a step in time
+/// their forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has
+/// got is not what the soil has lost.
 template <int Dim> void Contact<Dim>::findLost()
 {
 	std::vector<bool> isMet(system_.records.size(), false);
-	for (const Place& place : places_)
-		if (const auto* r = recordOf(place)) isMet[r - system_.records.data()] = true;
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (const auto* r = recordOf(contactPoint)) isMet[r - system_.records.data()] = true;
 	for (std::size_t i = 0; i < isMet.size(); ++i) {
 		const auto&                    r = system_.records[i];
 		std::optional<Attachment<Dim>> attached;
 		for (int quarter = 0; quarter <= 4 && !attached && !isMet[i] && r.touches; ++quarter) // deeper in the soil, where its face has no nodes
-			attached = attach(Vec<Dim>(r.place + 0.25 * quarter * grid_.cellSize * r.normal), basis_, grid_, int(r.number >> placeBits));
+			attached = attach(Vec<Dim>(r.position + 0.25 * quarter * grid_.cellSize * r.normal), basis_, grid_, int(r.number >> contactPointBits));
 		if (attached) lost_.emplace_back(*attached, i);
 	}
 }
@@ -329,29 +331,29 @@ template <int Dim> void Contact<Dim>::findLost()
 /// slips or comes off is for the iterations to find.
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
-	const auto holds = [&](const Place& place) {
-		if (system_.bodies[place.body].free >= 0) return; // it yields
-		const bool     sticks = place.law.frictionCoefficient > 0 && place.law.cap > 0;
-		const Vec<Dim> inCell = place.attached.inCell();
-		hold(place.attached.node[0], place.normal, inCell);
+	const auto holds = [&](const ContactPoint& contactPoint) {
+		if (system_.bodies[contactPoint.body].free >= 0) return; // it yields
+		const bool     sticks = contactPoint.law.frictionCoefficient > 0 && contactPoint.law.cap > 0;
+		const Vec<Dim> inCell = contactPoint.attached.inCell();
+		hold(contactPoint.attached.node[0], contactPoint.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
-			hold(place.attached.node[0], Vec<Dim>::Unit(a), inCell);
+			hold(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	};
-	for (const Place& place : places_)
-		if (place.gap <= tolerance_) holds(place);
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (contactPoint.gap <= tolerance_) holds(contactPoint);
 	const Eigen::VectorXd none = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size()));
-	forTouching(none, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>&) { holds(place); });
+	forTouching(none, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>&) { holds(contactPoint); });
 }
 
 template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
-	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
-		if (system_.bodies[place.body].free >= 0) return;
-		const bool     sticks = place.law.frictionCoefficient > 0 && place.law.cap > 0 && !touched.slips;
-		const Vec<Dim> inCell = place.attached.inCell();
-		hold(place.attached.node[0], place.normal, inCell);
+	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
+		if (system_.bodies[contactPoint.body].free >= 0) return;
+		const bool     sticks = contactPoint.law.frictionCoefficient > 0 && contactPoint.law.cap > 0 && !touched.slips;
+		const Vec<Dim> inCell = contactPoint.attached.inCell();
+		hold(contactPoint.attached.node[0], contactPoint.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
-			hold(place.attached.node[0], Vec<Dim>::Unit(a), inCell);
+			hold(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	});
 }
 
@@ -413,24 +415,24 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
-	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches)
-			sum -= stored(place.law, std::max(0., -place.law.normalStiffness * place.gap), r->tangentialForce.norm());
-	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
-		sum += touched.force().dot(near.slip) + stored(place.law, touched.normalForce, touched.tangentialForce.norm());
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (const auto* r = recordOf(contactPoint); r && r->touches)
+			sum -= stored(contactPoint.law, std::max(0., -contactPoint.law.normalStiffness * contactPoint.gap), r->tangentialForce.norm());
+	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>& near, const Touch<Dim>& touched) {
+		sum += touched.force().dot(near.slip) + stored(contactPoint.law, touched.normalForce, touched.tangentialForce.norm());
 	});
 	return sum;
 }
 
 /// By the mean slip of what is pressed.
-template <int Dim> void Contact<Dim>::turnPlaces(const Eigen::VectorXd& d)
+template <int Dim> void Contact<Dim>::turnContactPoints(const Eigen::VectorXd& d)
 {
 	std::vector<Mat<Dim>> turns(system_.bodies.size(), Mat<Dim>::Zero());
 	std::vector<double>   pressed(system_.bodies.size(), 0);
-	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
+	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>& near, const Touch<Dim>& touched) {
 		const Vec<Dim>& n = touched.normal;
-		turns[place.body] += touched.normalForce * (near.slip * n.transpose() - n * near.slip.transpose());
-		pressed[place.body] += touched.normalForce;
+		turns[contactPoint.body] += touched.normalForce * (near.slip * n.transpose() - n * near.slip.transpose());
+		pressed[contactPoint.body] += touched.normalForce;
 	});
 	for (std::size_t i = 0; i < turns.size(); ++i) {
 		auto& body = system_.bodies[i];
@@ -446,23 +448,23 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<ContactRecord<Dim>> records;
 	settle(d);
-	for (const Place& place : places_) {
-		const Approach<Dim> near = approach(place, d);
-		const Vec<Dim>      u = place.pressed.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
+	for (const ContactPoint& contactPoint : contactPoints_) {
+		const Approach<Dim> near = approach(contactPoint, d);
+		const Vec<Dim>      u = contactPoint.pressed.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
 		const double        travel = along.norm(), creep = u.norm() > leastMotion * travel ? travel : 0;
-		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, travel, creep, Vec<Dim>::Zero(), near.at.normal,
-		                    place.soil + u });
+		records.push_back({ contactPoint.body, contactPoint.number, near.at.gap, false, false, 0, contactPoint.presence, travel, creep,
+		                    Vec<Dim>::Zero(), near.at.normal, contactPoint.soil + u });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;
 	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
-	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
-		auto& r   = records[&place - places_.data()];
+	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
+		auto& r   = records[&contactPoint - contactPoints_.data()];
 		r.touches = true, r.slips = touched.slips, r.normalForce = touched.normalForce, r.tangentialForce = touched.tangentialForce;
-		system_.work += touched.force().dot(place.pressed.displacement(d));
-		addLoads(place, r.place, touched);
+		system_.work += touched.force().dot(contactPoint.pressed.displacement(d));
+		addLoads(contactPoint, r.position, touched);
 	});
-	if (std::isfinite(system_.energy) && !isRing_) turnPlaces(d);
+	if (std::isfinite(system_.energy) && !isRing_) turnContactPoints(d);
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);

@@ -12,10 +12,10 @@
 
 namespace gimpm {
 
-/// A place on the surface of a body that had soil in front of it at the end of a step that was accepted.
+/// A contact point on the surface of a body that had soil in front of it at the end of a step that was accepted.
 template <int Dim> struct ContactRecord {
 	int          body;
-	std::int64_t number;      ///< of the place on the body, and above placeBits the layer of the soil
+	std::int64_t number;      ///< of the contact point on the body, and above contactPointBits the layer of the soil
 	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
 	double       normalForce     = 0;                                           ///< [N]
@@ -23,18 +23,18 @@ template <int Dim> struct ContactRecord {
 	double       travel          = 0;                                           ///< how far soil moved along the body in that step [m]
 	double       creep           = 0;                                           ///< the part of it in which soil moves through the grid [m]
 	Vec<Dim>     tangentialForce = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
-	Vec<Dim>     place = Vec<Dim>::Zero();                                      ///< of the soil at the end of the step [m]
+	Vec<Dim>     position = Vec<Dim>::Zero();                                   ///< of the soil at the end of the step [m]
 };
 
 /// So a number stays one that doubles have.
-constexpr int placeBits = 51, layersOfPlaces = 4;
+constexpr int contactPointBits = 51, layersOfContactPoints = 4;
 
 /// What the soil does to whoever owns bodies.
 struct ContactLoad {
 	using Stiffness = Eigen::Matrix<double, 6, 6>;
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
 	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
-	double    area = 0, young = 0;                         ///< of the places that touch [m2], and that by Young's modulus of the soil there [N]
+	double    area = 0, young = 0;                         ///< of the contact points that touch [m2], and that by Young's modulus of the soil there [N]
 
 	ContactLoad& operator+=(const ContactLoad& other)
 	{
@@ -65,19 +65,20 @@ template <int Dim> struct ContactSystem {
 	std::vector<FreeBody<Dim>> free {};
 };
 
-/// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
-/// are sheared to and fro by a plate, friction .3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
+/// The penalty on the gap over that on the slip. With 20 a contact point slides after mu p h / (stiffness / 20 E).
+/// Blocks that are sheared to and fro by a plate, friction .3 to 4, take 5 solves a step; with 2 it is 8, and with 50
+/// 4.5.
 constexpr double slipSoftness = 20;
 
-/// Places on the surfaces of the bodies against the soil in front of them, which moves with the linear functions of the
-/// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h
-/// of the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into
-/// sight, and since then what soil and body have moved towards each other, along the normal of the place's own face:
-/// which neither edges nor domains that come and go let jump. In steps in time the places on a ball go around it with
-/// the soil, as a ball that turns in its place is the same ball: else those before its lowest one would be pressed
-/// deeper with all of its way, and lift it. Only prescribed motion of the bodies is known here. What of a surface lies
-/// in another body, or on one that came first, does not count. Where points are divided among processes, all know those
-/// that are near.
+/// Contact points on the surfaces of the bodies against the soil in front of them, which moves with the linear
+/// functions of the grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the
+/// soil there and h of the smallest cells, over the contact point's part of the surface. The gap is that which there
+/// was when soil came into sight, and since then what soil and body have moved towards each other, along the normal of
+/// the contact point's own face: which neither edges nor domains that come and go let jump. In steps in time the
+/// contact points on a ball go around it with the soil, as a ball that turns in its place is the same ball: else those
+/// before its lowest one would be pressed deeper with all of its way, and lift it. Only prescribed motion of the bodies
+/// is known here. What of a surface lies in another body, or on one that came first, does not count. Where points are
+/// divided among processes, all know those that are near.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
@@ -95,7 +96,7 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 	/// What free bodies make of the derivative beside what add() adds: their motion follows that of the soil at all
-	/// places that they touch.
+	/// contact points that they touch.
 	void markFree(Couplings&) const;
 	void addFree(const Eigen::VectorXd& d, Couplings&) const;
 
@@ -109,8 +110,8 @@ private:
 		Vec<Dim> centre() const { return Eigen::Map<const Vec<Dim>>(position.data()); }
 		Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
 	};
-	/// A place on a body with soil in front of it.
-	struct Place {
+	/// A contact point on a body with soil in front of it.
+	struct ContactPoint {
 		int             body;
 		std::int64_t    number;
 		Vec<Dim>        soil;                               ///< where that begins, at the start of the step
@@ -126,51 +127,51 @@ private:
 		Footprint<Dim>  pressed; ///< nodes by which it sees the soil move, and on which it presses
 	};
 
-	void                                takeSides();
-	void                                find(const StepContext<Dim>&);
-	void                                addPlaces(int body);
-	void                                addPlaces(int body, int layer);
-	void                                addPlace(int body, int layer, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
-	void                                recall(Place&, const ContactRecord<Dim>&, double seen) const;
-	std::vector<int>                    bodiesAround(int body) const;
-	bool                                isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
-	std::vector<std::pair<int, double>> screensBefore(const Vec<Dim>& place, const std::vector<int>& around) const;
-	bool                                isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& place, const Vec<Dim>& soil) const;
+	void             takeSides();
+	void             find(const StepContext<Dim>&);
+	void             addContactPoints(int body);
+	void             addContactPoints(int body, int layer);
+	void             addContactPoint(int body, int layer, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	void             recall(ContactPoint&, const ContactRecord<Dim>&, double seen) const;
+	std::vector<int> bodiesAround(int body) const;
+	bool             isHidden(int body, const Vec<Dim>& position, const Vec<Dim>& normal, const std::vector<int>& around) const;
+	std::vector<std::pair<int, double>> screensBefore(const Vec<Dim>& position, const std::vector<int>& around) const;
+	bool                                isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& position, const Vec<Dim>& soil) const;
 	void                                look(int body);
 	auto                                nearTo(int body) const; // first and last in near_
-	const ContactRecord<Dim>*           recordOf(const Place&) const;
-	Approach<Dim>                       approach(const Place&, const Eigen::VectorXd& d) const;
-	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
+	const ContactRecord<Dim>*           recordOf(const ContactPoint&) const;
+	Approach<Dim>                       approach(const ContactPoint&, const Eigen::VectorXd& d) const;
+	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(contact point, approach, touch)
 	std::string                         entered(const Eigen::VectorXd& d) const;
 	double                              given(const Eigen::VectorXd& d) const;
-	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
-	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
+	void                                addLoads(const ContactPoint&, const Vec<Dim>& position, const Touch<Dim>&);
+	Mat<Dim>                            resistanceOf(const ContactPoint&, const Touch<Dim>&) const;
 	void                                findLost();
-	std::pair<int, int>                 placesOf(int body) const;
+	std::pair<int, int>                 contactPointsOf(int body) const;
 	void                                widen(int body);
 	void                                spreadPressure();
-	void                                turnPlaces(const Eigen::VectorXd& d);
-	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
-	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
+	void                                turnContactPoints(const Eigen::VectorXd& d);
+	Vec<Dim>                            pointOfForce(const ContactPoint&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
+	ContactLoad                         loadOn(const Vec<Dim>& owner, const ContactPoint&, const Vec<Dim>& position, const Touch<Dim>&) const;
 
 	struct Moved {
 		Vec<Dim> carried, normal, tangentialForce;
 	};
-	Moved                     moved(const Place&) const;
-	void                      settle(const Eigen::VectorXd& d) const;
-	void                      put(int free, const typename FreeBody<Dim>::Vector& motion) const;
-	std::vector<const Place*> placesOfFree(int free) const;
-	PlaceOfFree<Dim>          seen(const Place&, const Vec<Dim>& owner, const Eigen::VectorXd& d) const;
-	double                    sizeOfFree(int free) const;
-	std::string               unbalanced() const;
+	Moved                            moved(const ContactPoint&) const;
+	void                             settle(const Eigen::VectorXd& d) const;
+	void                             put(int free, const typename FreeBody<Dim>::Vector& motion) const;
+	std::vector<const ContactPoint*> contactPointsOfFree(int free) const;
+	FreeContactPoint<Dim>            seen(const ContactPoint&, const Vec<Dim>& owner, const Eigen::VectorXd& d) const;
+	double                           sizeOfFree(int free) const;
+	std::string                      unbalanced() const;
 
-	ContactSystem<Dim>&     system_;
-	mutable Eigen::VectorXd settledAt_; ///< where free bodies are in balance, if there are some
-	double                  tolerance_; // of a gap that counts as touching [m]
-	bool                    isRing_, isSymmetric_ = true;
-	std::vector<Near>       near_;   // by body
-	std::vector<Place>      places_; // by body and number
-	std::string             obstacle_;
+	ContactSystem<Dim>&       system_;
+	mutable Eigen::VectorXd   settledAt_; ///< where free bodies are in balance, if there are some
+	double                    tolerance_; // of a gap that counts as touching [m]
+	bool                      isRing_, isSymmetric_ = true;
+	std::vector<Near>         near_;          // by body
+	std::vector<ContactPoint> contactPoints_; // by body and number
+	std::string               obstacle_;
 
 	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // with the number of its record
 	const PointCloud<Dim>&                               cloud_;

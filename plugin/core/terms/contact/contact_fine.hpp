@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Places on a ball that are closer to each other than on other bodies.
+// Contact points on a ball that are closer to each other than on other bodies.
 #pragma once
 #include "core/terms/contact/contact_surface.hpp"
 
 namespace gimpm {
 
-/// A ball of two cells and more may touch with few places; a quarter of a cell apart they take it along as the edges of
-/// a polygon do. Soil that smaller ones meet is not resolved.
-template <int Dim> bool mayHaveFinePlaces(const RigidShape<Dim>& shape, double cellSize)
+/// A ball of two cells and more may touch with few contact points; a quarter of a cell apart they take it along as the
+/// edges of a polygon do. Soil that smaller ones meet is not resolved.
+template <int Dim> bool mayHaveFinePoints(const RigidShape<Dim>& shape, double cellSize)
 {
 	return shape.kind == RigidKind::ball && shape.radius >= cellSize * (2 - 1e-9);
 }
 
-/// Where numbers of such places begin: they are told from those of the usual ones by that.
+/// Where numbers of such contact points begin: they are told from those of the usual ones by that.
 constexpr std::int64_t firstFineNumber = std::int64_t(1) << 40;
 
 /// As surfacePointsAt, an eighth of a cell apart.

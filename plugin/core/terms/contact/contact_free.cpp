@@ -16,14 +16,14 @@ template <int Dim> struct Balance {
 	typename Free::Vector residual, absoluteContributions;
 	bool                  touches = false;
 
-	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<PlaceOfFree<Dim>>& places)
+	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 	{
 		residual              = body.inertia * motion - body.push;
 		absoluteContributions = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
-		for (const auto& place : places) {
-			const typename Free::Vector force = Lever<Dim>(place).moves.transpose() * place.force;
+		for (const auto& contactPoint : contactPoints) {
+			const typename Free::Vector force = Lever<Dim>(contactPoint).moves.transpose() * contactPoint.force;
 			residual += force, absoluteContributions += force.cwiseAbs();
-			touches = touches || place.gap <= 0;
+			touches = touches || contactPoint.gap <= 0;
 		}
 		for (int i = 0; i < Free::unknowns; ++i)
 			if (body.isGiven[i]) residual[i] = 0;
@@ -40,7 +40,7 @@ template <int Dim> struct Balance {
 };
 
 /// A body that touches nothing and has no inertia goes by its push to the first place that it meets.
-template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector<PlaceOfFree<Dim>>& places)
+template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 {
 	Vec<Dim> push = body.push.template head<Dim>();
 	for (int a = 0; a < Dim; ++a)
@@ -48,8 +48,8 @@ template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector
 	if (push.isZero(0)) return 0;
 	const Vec<Dim> along = push.normalized();
 	double         least = std::numeric_limits<double>::infinity();
-	for (const auto& place : places)
-		if (const double speed = along.dot(place.normal); speed > 1e-3) least = std::min(least, place.gap / speed);
+	for (const auto& contactPoint : contactPoints)
+		if (const double speed = along.dot(contactPoint.normal); speed > 1e-3) least = std::min(least, contactPoint.gap / speed);
 	return std::isfinite(least) ? least : 0;
 }
 
@@ -79,23 +79,23 @@ template <> FreeBody<3>::Matrix incrementsOf<3>(const FreeBody<3>::Vector& motio
 	return result;
 }
 
-template <int Dim> Lever<Dim>::Lever(const PlaceOfFree<Dim>& place)
+template <int Dim> Lever<Dim>::Lever(const FreeContactPoint<Dim>& contactPoint)
 {
 	constexpr int turns = Turn<Dim>::RowsAtCompileTime;
-	moves << Mat<Dim>::Identity(), turnsArm(place.arm);
-	turned.setZero(), byPlace.setZero(), byBody.setZero();
-	turned.template rightCols<turns>()        = turnsArm(place.force);
-	byPlace.template bottomRows<turns>()      = -turnsArm(place.force).transpose();
-	byBody.template block<turns, Dim>(Dim, 0) = turnsArm(place.force).transpose();
+	moves << Mat<Dim>::Identity(), turnsArm(contactPoint.arm);
+	turned.setZero(), byPosition.setZero(), byBody.setZero();
+	turned.template rightCols<turns>()        = turnsArm(contactPoint.force);
+	byPosition.template bottomRows<turns>()   = -turnsArm(contactPoint.force).transpose();
+	byBody.template block<turns, Dim>(Dim, 0) = turnsArm(contactPoint.force).transpose();
 }
 
-template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>& body, double size, const std::vector<PlaceOfFree<Dim>>& places)
+template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>& body, double size, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 {
 	using Free                       = FreeBody<Dim>;
 	typename Free::Matrix K          = body.inertia;
 	const auto            increments = incrementsOf<Dim>(body.motion);
-	for (const auto& place : places)
-		K += Lever<Dim>(place).bodyByBody(place.tangent) * increments;
+	for (const auto& contactPoint : contactPoints)
+		K += Lever<Dim>(contactPoint).bodyByBody(contactPoint.tangent) * increments;
 	typename Free::Vector scale = Free::Vector::Ones();
 	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
 	for (int i = 0; i < Free::unknowns; ++i)
@@ -111,7 +111,7 @@ namespace {
 template <int Dim> class Search {
 public:
 	using Vector = typename FreeBody<Dim>::Vector;
-	using Look   = std::function<std::vector<PlaceOfFree<Dim>>(const Vector&)>;
+	using Look   = std::function<std::vector<FreeContactPoint<Dim>>(const Vector&)>;
 
 	Search(FreeBody<Dim>& body, double size, const Look& look) : body_(body), size_(size), look_(look), at_(seenAt(body.motion)) { }
 
@@ -128,15 +128,15 @@ public:
 
 private:
 	struct Seen {
-		Vector                        motion;
-		std::vector<PlaceOfFree<Dim>> places;
-		Balance<Dim>                  balance;
+		Vector                             motion;
+		std::vector<FreeContactPoint<Dim>> contactPoints;
+		Balance<Dim>                       balance;
 	};
 	Seen seenAt(const Vector& motion) const
 	{
-		auto         places = look_(motion);
-		Balance<Dim> balance(body_, motion, places);
-		return { motion, std::move(places), balance };
+		auto         contactPoints = look_(motion);
+		Balance<Dim> balance(body_, motion, contactPoints);
+		return { motion, std::move(contactPoints), balance };
 	}
 	FreeBody<Dim> here() const
 	{
@@ -146,7 +146,7 @@ private:
 	}
 	bool falls()
 	{
-		const double way = wayToSoil(body_, at_.places);
+		const double way = wayToSoil(body_, at_.contactPoints);
 		if (!(way > 0)) return false;
 		Vector step               = Vector::Zero();
 		step.template head<Dim>() = (way + 1e-6 * size_) * body_.push.template head<Dim>().normalized();
@@ -158,7 +158,7 @@ private:
 	/// Newton's step, or a part of it, where that lessens what is out of balance.
 	bool newton()
 	{
-		const Vector step = -(compliance(here(), size_, at_.places) * at_.balance.residual);
+		const Vector step = -(compliance(here(), size_, at_.contactPoints) * at_.balance.residual);
 		double       part = 1;
 		for (int halving = 0; halving < 8; ++halving, part /= 2) {
 			Seen there = seenAt(at_.motion + part * step);
@@ -168,34 +168,34 @@ private:
 		}
 		return false;
 	}
-	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved
-	/// too far along itself comes back.
-	static std::vector<PlaceOfFree<Dim>> withSecants(std::vector<PlaceOfFree<Dim>> places)
+	/// Where a contact point slips, friction as a spring that gives it by the slip there is: a body that has been
+	/// moved too far along itself comes back.
+	static std::vector<FreeContactPoint<Dim>> withSecants(std::vector<FreeContactPoint<Dim>> contactPoints)
 	{
-		for (auto& place : places) {
-			const Vec<Dim> n = place.normal, T = place.force - place.force.dot(n) * n;
-			if (T.isZero(0) || place.tangent.isZero(0)) continue;
-			const double across = -n.dot(place.tangent * n);
+		for (auto& contactPoint : contactPoints) {
+			const Vec<Dim> n = contactPoint.normal, T = contactPoint.force - contactPoint.force.dot(n) * n;
+			if (T.isZero(0) || contactPoint.tangent.isZero(0)) continue;
+			const double across = -n.dot(contactPoint.tangent * n);
 			double       along  = across / 20;
 			if constexpr (Dim == 3) {
 				const Vec3 beside = n.cross(T).normalized();
-				along             = std::max(0., -beside.dot(place.tangent * beside));
+				along             = std::max(0., -beside.dot(contactPoint.tangent * beside));
 			}
-			place.tangent = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
+			contactPoint.tangent = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
 		}
-		return places;
+		return contactPoints;
 	}
-	/// As in a thick liquid: a body that tips over has to get to the next place that holds it.
+	/// As in a thick liquid: a body that tips over has to get to the next contact point that holds it.
 	void creep()
 	{
 		Vector resists = body_.inertia.diagonal();
-		for (const auto& place : at_.places) {
-			resists.template head<Dim>().array() += place.tangent.norm();
-			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.tangent.norm() * size_ * size_;
+		for (const auto& contactPoint : at_.contactPoints) {
+			resists.template head<Dim>().array() += contactPoint.tangent.norm();
+			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += contactPoint.tangent.norm() * size_ * size_;
 		}
 		auto thick = here();
 		thick.inertia += drag_ * Vector(resists).asDiagonal();
-		Vector       step = -(compliance(thick, size_, withSecants(at_.places)) * at_.balance.residual);
+		Vector       step = -(compliance(thick, size_, withSecants(at_.contactPoints)) * at_.balance.residual);
 		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();
 		const double most = 0.02 * size_;
 		if (way > most) step *= most / way;
@@ -217,7 +217,7 @@ public:
 } // namespace
 
 template <int Dim>
-bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<PlaceOfFree<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
+bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
 {
 	Search<Dim> search(body, size, look);
 	for (int iteration = 0; iteration < most && !search.isDone() && search.next(); ++iteration) { }
@@ -230,9 +230,9 @@ bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<Pl
 
 template struct Lever<2>;
 template struct Lever<3>;
-template bool                settle(FreeBody<2>&, double, const std::function<std::vector<PlaceOfFree<2>>(const FreeBody<2>::Vector&)>&);
-template bool                settle(FreeBody<3>&, double, const std::function<std::vector<PlaceOfFree<3>>(const FreeBody<3>::Vector&)>&);
-template FreeBody<2>::Matrix compliance(const FreeBody<2>&, double, const std::vector<PlaceOfFree<2>>&);
-template FreeBody<3>::Matrix compliance(const FreeBody<3>&, double, const std::vector<PlaceOfFree<3>>&);
+template bool                settle(FreeBody<2>&, double, const std::function<std::vector<FreeContactPoint<2>>(const FreeBody<2>::Vector&)>&);
+template bool                settle(FreeBody<3>&, double, const std::function<std::vector<FreeContactPoint<3>>(const FreeBody<3>::Vector&)>&);
+template FreeBody<2>::Matrix compliance(const FreeBody<2>&, double, const std::vector<FreeContactPoint<2>>&);
+template FreeBody<3>::Matrix compliance(const FreeBody<3>&, double, const std::vector<FreeContactPoint<3>>&);
 
 } // namespace gimpm

@@ -40,37 +40,39 @@ template <int Dim> struct FreeBody {
 Mat<2> rotationOf(const Turn<2>&);
 Mat3   rotationOf(const Turn<3>&);
 
-/// The force at one place, and how it depends on soil and body there.
-template <int Dim> struct PlaceOfFree {
-	Vec<Dim> arm;     ///< from the owner to the place, at the iterate [m]
+/// The force at one contact point, and how it depends on soil and body there.
+template <int Dim> struct FreeContactPoint {
+	Vec<Dim> arm;     ///< from the owner to the contact point, at the iterate [m]
 	Vec<Dim> force;   ///< on the soil [N]
-	Mat<Dim> tangent; ///< its derivative by the place [N/m]
+	Mat<Dim> tangent; ///< its derivative by the contact point [N/m]
 	double   gap;     ///< > 0: it does not touch [m]
 	Vec<Dim> normal;
 };
 
-/// What a force at a place has to do with the unknowns of its body: with B the displacement of the place by the body's,
-/// df = tangent (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df + byPlace du + byBody dq.
+/// What a force at a contact point has to do with the unknowns of its body: with B the displacement of the contact
+/// point by the body's, df = tangent (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df +
+/// byPosition du + byBody dq.
 template <int Dim> struct Lever {
 	using Free = FreeBody<Dim>;
 	Eigen::Matrix<double, Dim, Free::unknowns> moves, turned;
-	Eigen::Matrix<double, Free::unknowns, Dim> byPlace;
+	Eigen::Matrix<double, Free::unknowns, Dim> byPosition;
 	typename Free::Matrix                      byBody;
 
-	explicit Lever(const PlaceOfFree<Dim>&);
+	explicit Lever(const FreeContactPoint<Dim>&);
 
-	/// Derivative of the force on the soil by q, and of that on the body by the place.
+	/// Derivative of the force on the soil by q, and of that on the body by the contact point.
 	Eigen::Matrix<double, Dim, Free::unknowns> forceByBody(const Mat<Dim>& tangent) const { return turned - tangent * moves; }
-	Eigen::Matrix<double, Free::unknowns, Dim> bodyByPlace(const Mat<Dim>& tangent) const { return moves.transpose() * tangent + byPlace; }
+	Eigen::Matrix<double, Free::unknowns, Dim> bodyByPosition(const Mat<Dim>& tangent) const { return moves.transpose() * tangent + byPosition; }
 	typename Free::Matrix                      bodyByBody(const Mat<Dim>& tangent) const { return moves.transpose() * forceByBody(tangent) + byBody; }
 };
 
-/// Finds the motion of the body; `look` puts the bodies at a motion and tells the places, all of them. False: there is
-/// no equilibrium that could be found, and the motion is the best one that was.
-template <int Dim> bool settle(FreeBody<Dim>&, double size, const std::function<std::vector<PlaceOfFree<Dim>>(const typename FreeBody<Dim>::Vector&)>& look);
+/// Finds the motion of the body; `look` puts the bodies at a motion and tells the contact points, all of them. False:
+/// there is no equilibrium that could be found, and the motion is the best one that was.
+template <int Dim>
+bool settle(FreeBody<Dim>&, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look);
 
 /// The inverse of the derivative of what is out of balance by the motion, zero for what is given; `size` of the body
 /// makes turns comparable with displacements [m]. What nothing resists does not move.
-template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>&, double size, const std::vector<PlaceOfFree<Dim>>&);
+template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>&, double size, const std::vector<FreeContactPoint<Dim>>&);
 
 } // namespace gimpm

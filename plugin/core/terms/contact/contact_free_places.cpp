@@ -19,12 +19,12 @@ template <int Dim> struct AtNode {
 
 } // namespace
 
-template <int Dim> typename Contact<Dim>::Moved Contact<Dim>::moved(const Place& place) const
+template <int Dim> typename Contact<Dim>::Moved Contact<Dim>::moved(const ContactPoint& contactPoint) const
 {
-	const auto& body = system_.bodies[place.body];
-	if (body.free < 0) return { place.carried, place.normal, place.tangentialForce };
+	const auto& body = system_.bodies[contactPoint.body];
+	if (body.free < 0) return { contactPoint.carried, contactPoint.normal, contactPoint.tangentialForce };
 	const Mat<Dim> turn = body.end.rotation * body.begin.rotation.transpose();
-	return { body.carried(place.soil), turn * place.normal, turn * place.tangentialForce };
+	return { body.carried(contactPoint.soil), turn * contactPoint.normal, turn * contactPoint.tangentialForce };
 }
 
 /// Puts all bodies of the owner where this motion brings them.
@@ -38,19 +38,19 @@ template <int Dim> void Contact<Dim>::put(int number, const typename FreeBody<Di
 	system_.owners[free.owner] = position;
 }
 
-template <int Dim> std::vector<const typename Contact<Dim>::Place*> Contact<Dim>::placesOfFree(int number) const
+template <int Dim> std::vector<const typename Contact<Dim>::ContactPoint*> Contact<Dim>::contactPointsOfFree(int number) const
 {
-	std::vector<const Place*> found;
-	for (const Place& place : places_)
-		if (system_.bodies[place.body].free == number) found.push_back(&place);
+	std::vector<const ContactPoint*> found;
+	for (const ContactPoint& contactPoint : contactPoints_)
+		if (system_.bodies[contactPoint.body].free == number) found.push_back(&contactPoint);
 	return found;
 }
 
-template <int Dim> PlaceOfFree<Dim> Contact<Dim>::seen(const Place& place, const Vec<Dim>& owner, const Eigen::VectorXd& d) const
+template <int Dim> FreeContactPoint<Dim> Contact<Dim>::seen(const ContactPoint& contactPoint, const Vec<Dim>& owner, const Eigen::VectorXd& d) const
 {
-	const Approach<Dim> near    = approach(place, d);
-	const auto          touched = touch(place.law, near, tolerance_);
-	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.pressed.displacement(d), near.at.normal) - owner;
+	const Approach<Dim> near    = approach(contactPoint, d);
+	const auto          touched = touch(contactPoint.law, near, tolerance_);
+	const Vec<Dim>      arm     = pointOfForce(contactPoint, contactPoint.soil + contactPoint.pressed.displacement(d), near.at.normal) - owner;
 	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
 	return { arm, touched->force(), touched->tangent, near.at.gap, near.at.normal };
 }
@@ -72,13 +72,13 @@ template <int Dim> void Contact<Dim>::settle(const Eigen::VectorXd& d) const
 {
 	if (system_.free.empty() || (settledAt_.size() == d.size() && settledAt_ == d)) return;
 	for (int number = 0; number < int(system_.free.size()); ++number) {
-		const auto places = placesOfFree(number);
-		auto&      free   = system_.free[number];
-		const auto look   = [&](const typename FreeBody<Dim>::Vector& motion) {
+		const auto contactPoints = contactPointsOfFree(number);
+		auto&      free          = system_.free[number];
+		const auto look          = [&](const typename FreeBody<Dim>::Vector& motion) {
                         put(number, motion);
-                        std::vector<PlaceOfFree<Dim>> found;
-                        for (const Place* place : places)
-                                found.push_back(seen(*place, system_.owners[free.owner], d));
+                        std::vector<FreeContactPoint<Dim>> found;
+                        for (const ContactPoint* contactPoint : contactPoints)
+                                found.push_back(seen(*contactPoint, system_.owners[free.owner], d));
                         return found;
 		};
 		gimpm::settle<Dim>(free, sizeOfFree(number), look);
@@ -90,8 +90,8 @@ template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
 {
 	for (int number = 0; number < int(system_.free.size()); ++number) {
 		std::vector<int> nodes;
-		for (const Place* place : placesOfFree(number))
-			nodes.insert(nodes.end(), place->pressed.node.begin(), place->pressed.node.begin() + place->pressed.nodes);
+		for (const ContactPoint* contactPoint : contactPointsOfFree(number))
+			nodes.insert(nodes.end(), contactPoint->pressed.node.begin(), contactPoint->pressed.node.begin() + contactPoint->pressed.nodes);
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		for (const int a : nodes)
@@ -108,17 +108,17 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 	constexpr int unknowns = FreeBody<Dim>::unknowns;
 	settle(d);
 	for (int number = 0; number < int(system_.free.size()); ++number) {
-		const auto&                   free = system_.free[number];
-		std::vector<PlaceOfFree<Dim>> all;
-		std::map<int, AtNode<Dim>>    nodes;
-		for (const Place* place : placesOfFree(number)) {
-			all.push_back(seen(*place, system_.owners[free.owner], d));
+		const auto&                        free = system_.free[number];
+		std::vector<FreeContactPoint<Dim>> all;
+		std::map<int, AtNode<Dim>>         nodes;
+		for (const ContactPoint* contactPoint : contactPointsOfFree(number)) {
+			all.push_back(seen(*contactPoint, system_.owners[free.owner], d));
 			if (all.back().tangent.isZero(0)) continue;
 			const Lever<Dim> lever(all.back());
-			for (int n = 0; n < place->pressed.nodes; ++n) {
-				AtNode<Dim>& node = nodes[place->pressed.node[n]];
-				node.forces += place->pressed.weight[n] * lever.forceByBody(all.back().tangent);
-				node.moves += place->pressed.weight[n] * lever.bodyByPlace(all.back().tangent);
+			for (int n = 0; n < contactPoint->pressed.nodes; ++n) {
+				AtNode<Dim>& node = nodes[contactPoint->pressed.node[n]];
+				node.forces += contactPoint->pressed.weight[n] * lever.forceByBody(all.back().tangent);
+				node.moves += contactPoint->pressed.weight[n] * lever.bodyByPosition(all.back().tangent);
 			}
 		}
 		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);
@@ -141,8 +141,8 @@ template <int Dim> std::string Contact<Dim>::unbalanced() const
 	return "";
 }
 
-template typename Contact<2>::Moved Contact<2>::moved(const Place&) const;
-template typename Contact<3>::Moved Contact<3>::moved(const Place&) const;
+template typename Contact<2>::Moved Contact<2>::moved(const ContactPoint&) const;
+template typename Contact<3>::Moved Contact<3>::moved(const ContactPoint&) const;
 template void                       Contact<2>::settle(const Eigen::VectorXd&) const;
 template void                       Contact<3>::settle(const Eigen::VectorXd&) const;
 template void                       Contact<2>::markFree(Couplings&) const;

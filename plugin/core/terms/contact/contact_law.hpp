@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a rigid body does to one place of the soil that touches it.
+// What a rigid body does to one contact point of the soil that touches it.
 #pragma once
 #include "core/terms/contact/rigid_body.hpp"
 #include <optional>
@@ -10,15 +10,16 @@ template <int Dim> struct ContactLaw {
 	double normalStiffness, tangentialStiffness; ///< of the penalty [N/m]
 	double frictionCoefficient;                  ///< [-]
 	double cap;                                  ///< of the tangential force [N]
-	/// What presses on places around as well as on this one, by which it rubs at least [N]; up to which gap [m].
+	/// What presses on contact points around as well as on this one, by which it rubs at least [N]; up to which gap
+	/// [m].
 	double around = 0, reach = 0;
 };
 
-/// Where the place is by the body, and how it has moved along it in the step.
+/// Where the contact point is by the body, and how it has moved along it in the step.
 template <int Dim> struct Approach {
 	Proximity<Dim> at;              ///< at the end of the step; the gap less that which counts as none
 	Vec<Dim>       slip;            ///< relative displacement in the step [m]
-	Mat<Dim>       slipDerivative;  ///< its derivative by the place
+	Mat<Dim>       slipDerivative;  ///< its derivative by the contact point
 	Vec<Dim>       tangentialForce; ///< at the end of the last step [N]
 };
 
@@ -32,9 +33,9 @@ template <int Dim> struct Touch {
 	Vec<Dim> force() const { return normalForce * normal + tangentialForce; } ///< on the soil
 };
 
-/// A penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip since the place began
-/// to stick. None where the gap is wider than the tolerance. Within it a place that is not pressed counts as sticking
-/// in the derivative: a body that only touches is held.
+/// A penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip since the contact point
+/// began to stick. None where the gap is wider than the tolerance. Within it a contact point that is not pressed counts
+/// as sticking in the derivative: a body that only touches is held.
 template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>&, const Approach<Dim>&, double tolerance);
 
 } // namespace gimpm

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a body gets of the force at a place.
+// What a body gets of the force at a contact point.
 #include "core/terms/contact/contact.hpp"
 #include "core/terms/contact/contact_nodes.hpp"
 #include <cmath>
 
 namespace gimpm {
 
-template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const Touch<Dim>& touched) const
+template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const ContactPoint& at, const Touch<Dim>& touched) const
 {
 	const double along = touched.slips || at.law.frictionCoefficient == 0 || at.law.cap == 0 ? 0 : at.law.tangentialStiffness;
 	return at.law.normalStiffness * touched.normal * touched.normal.transpose()
@@ -15,19 +15,19 @@ template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const To
 
 /// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil
 /// has slipped from there in a step in time.
-template <int Dim> Vec<Dim> Contact<Dim>::placeOfForce(const Place& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
+template <int Dim> Vec<Dim> Contact<Dim>::pointOfForce(const ContactPoint& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
 {
 	const auto& body = system_.bodies[at.body];
 	if (body.shape.kind != RigidKind::ball || !std::isfinite(system_.energy)) return soil;
 	return body.end.position + (soil - body.end.position).dot(normal) * normal;
 }
 
-template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched) const
+template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const ContactPoint& at, const Vec<Dim>& position, const Touch<Dim>& touched) const
 {
 	ContactLoad load;
 	Vec3        arm                 = Vec3::Zero();
 	load.force.template head<Dim>() = -touched.force();
-	arm.template head<Dim>()        = place - owner;
+	arm.template head<Dim>()        = position - owner;
 	load.torque                     = arm.cross(load.force);
 	if (isRing_) load.force[0] = 0, load.torque.setZero(); // all around the axis they add up to nothing
 	if constexpr (Dim == 3) {
@@ -39,24 +39,24 @@ template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const
 	return load;
 }
 
-template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched)
+template <int Dim> void Contact<Dim>::addLoads(const ContactPoint& at, const Vec<Dim>& position, const Touch<Dim>& touched)
 {
 	const auto& body = system_.bodies[at.body];
 	if constexpr (Dim == 3)
 		if (body.nodes > 0) {
-			const auto loads = loadsOnNodes(body, at.soil, { -touched.force(), place, resistanceOf(at, touched), at.area, at.young });
+			const auto loads = loadsOnNodes(body, at.soil, { -touched.force(), position, resistanceOf(at, touched), at.area, at.young });
 			for (int i = 0; i < body.nodes; ++i)
 				system_.loads[body.nodeOwners[i]] += loads[i];
 			return;
 		}
-	ContactLoad load = loadOn(system_.owners[body.owner], at, placeOfForce(at, place, touched.normal), touched);
+	ContactLoad load = loadOn(system_.owners[body.owner], at, pointOfForce(at, position, touched.normal), touched);
 	load.area = at.area, load.young = at.area * at.young;
 	system_.loads[body.owner] += load;
 }
 
-template void   Contact<2>::addLoads(const Place&, const Vec<2>&, const Touch<2>&);
-template void   Contact<3>::addLoads(const Place&, const Vec<3>&, const Touch<3>&);
-template Vec<2> Contact<2>::placeOfForce(const Place&, const Vec<2>&, const Vec<2>&) const;
-template Vec<3> Contact<3>::placeOfForce(const Place&, const Vec<3>&, const Vec<3>&) const;
+template void   Contact<2>::addLoads(const ContactPoint&, const Vec<2>&, const Touch<2>&);
+template void   Contact<3>::addLoads(const ContactPoint&, const Vec<3>&, const Touch<3>&);
+template Vec<2> Contact<2>::pointOfForce(const ContactPoint&, const Vec<2>&, const Vec<2>&) const;
+template Vec<3> Contact<3>::pointOfForce(const ContactPoint&, const Vec<3>&, const Vec<3>&) const;
 
 } // namespace gimpm

@@ -52,7 +52,7 @@ std::array<ContactLoad, 3> loadsOnNodes(const RigidBody<3>& body, const Vec3& so
 		node[i] = body.end.inSpace(body.shape.corners[i] + body.end.shift[i]);
 		foot += weight[i] * node[i], middle += node[i] / body.nodes;
 	}
-	const Vec3 offset = at.place - foot, axis = (node[1] - node[0]).normalized();
+	const Vec3 offset = at.position - foot, axis = (node[1] - node[0]).normalized();
 	Vec3       moment = offset.cross(at.force), twist = Vec3::Zero();
 	if (body.nodes == 2) twist = moment.dot(axis) * axis, moment -= twist;
 	for (int i = 0; i < body.nodes; ++i)

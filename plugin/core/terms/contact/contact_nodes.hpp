@@ -5,21 +5,21 @@
 
 namespace gimpm {
 
-/// Barycentric coordinates of the place of the body that is closest to one in its axes, as it is at the beginning of
-/// the step: of a sheet in its plane, also beyond its edges, of a capsule on its axis.
+/// Barycentric coordinates of the contact point of the body that is closest to one in its axes, as it is at the
+/// beginning of the step: of a sheet in its plane, also beyond its edges, of a capsule on its axis.
 template <int Dim> std::array<double, 3> nodeWeights(const RigidBody<Dim>&, const Vec<Dim>& own);
 
 /// A force on the surface of a body with nodes.
 struct ForceOnNodes {
-	Vec3   force, place;  ///< [N]; at the end of the step [m]
-	Mat3   resists;       ///< stiffness of what exerts it [N/m]
-	double area, modulus; ///< what of the surface that acts on [m2]; Young's modulus of the soil [Pa]
+	Vec3   force, position; ///< [N]; at the end of the step [m]
+	Mat3   resists;         ///< stiffness of what exerts it [N/m]
+	double area, modulus;   ///< what of the surface that acts on [m2]; Young's modulus of the soil [Pa]
 };
 
-/// What each node gets of it: the force by the weights, and the moment about the place with these weights by a couple
-/// of forces of the least size; what turns a capsule about its axis, by torques. So forces and moments about any point
-/// add up to that of the force itself. The stiffness is a diagonal that bounds that of all nodes, as the weights add up
-/// to one. `soil`: the place at the beginning of the step.
+/// What each node gets of it: the force by the weights, and the moment about the contact point with these weights by a
+/// couple of forces of the least size; what turns a capsule about its axis, by torques. So forces and moments about any
+/// point add up to that of the force itself. The stiffness is a diagonal that bounds that of all nodes, as the weights
+/// add up to one. `soil`: the contact point at the beginning of the step.
 std::array<ContactLoad, 3> loadsOnNodes(const RigidBody<3>&, const Vec3& soil, const ForceOnNodes&);
 
 } // namespace gimpm

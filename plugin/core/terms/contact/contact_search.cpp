@@ -11,8 +11,8 @@ public:
 	PatchesOfCells(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : grid_(grid)
 	{
 		for (std::size_t i = 0; i < basis.patches.size(); ++i)
-			places_.emplace_back(basis.patches[i].cell, int(i));
-		std::sort(places_.begin(), places_.end());
+			contactPoints_.emplace_back(basis.patches[i].cell, int(i));
+		std::sort(contactPoints_.begin(), contactPoints_.end());
 	}
 
 	/// Calls f(patch) for the patches with a cell in the box, and for others where that is as quick.
@@ -21,8 +21,8 @@ public:
 		constexpr double limit = Grid<Dim>::indexLimit;
 		const auto     cell = [&](const Vec<Dim>& x) { return Vec<Dim>(((x - grid_.origin) / grid_.cellSize).array().floor().min(limit).max(-limit)); };
 		const Vec<Dim> first = cell(low) - Vec<Dim>::Ones(), last = cell(high);
-		if (((last - first).array() + 1).prod() > double(places_.size()) || grid_.isPeriodic() || grid_.refinement || hasLayers()) {
-			for (const auto& [cell, patch] : places_)
+		if (((last - first).array() + 1).prod() > double(contactPoints_.size()) || grid_.isPeriodic() || grid_.refinement || hasLayers()) {
+			for (const auto& [cell, patch] : contactPoints_)
 				f(patch);
 			return;
 		}
@@ -31,8 +31,8 @@ public:
 		for (int a = 0; a < Dim;) {
 			Index<Dim> end = row;
 			end[0]         = to[0];
-			auto i         = std::lower_bound(places_.begin(), places_.end(), std::pair(Grid<Dim>::key(row), -1));
-			for (const Key stop = Grid<Dim>::key(end); i != places_.end() && i->first <= stop; ++i)
+			auto i         = std::lower_bound(contactPoints_.begin(), contactPoints_.end(), std::pair(Grid<Dim>::key(row), -1));
+			for (const Key stop = Grid<Dim>::key(end); i != contactPoints_.end() && i->first <= stop; ++i)
 				f(i->second);
 			for (a = 1; a < Dim && ++row[a] > to[a]; ++a)
 				row[a] = from[a];
@@ -40,10 +40,10 @@ public:
 	}
 
 private:
-	bool hasLayers() const { return !places_.empty() && Grid<Dim>::layer(places_.back().first) > 0; }
+	bool hasLayers() const { return !contactPoints_.empty() && Grid<Dim>::layer(contactPoints_.back().first) > 0; }
 
 	const Grid<Dim>&                 grid_;
-	std::vector<std::pair<Key, int>> places_;
+	std::vector<std::pair<Key, int>> contactPoints_;
 };
 
 } // namespace

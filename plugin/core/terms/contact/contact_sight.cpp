@@ -9,11 +9,11 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Where a line enters a box; infinite if it passes by. A line along a face of it just passes by.
-template <int Dim> double entry(const Vec<Dim>& place, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
+template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
 {
 	double first = -infinite, last = infinite;
 	for (int a = 0; a < Dim; ++a) {
-		const double away = domain.centre[a] - place[a];
+		const double away = domain.centre[a] - position[a];
 		if (std::abs(along[a]) < 1e-12) {
 			if (std::abs(away) >= domain.half[a]) return infinite;
 			continue;
@@ -68,15 +68,15 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 /// then those count which it misses by a quarter of a cell.
 template <int Dim>
 template <class F>
-double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides& hides) const
+double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
 	double         hit = infinite, near = infinite;
-	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = place + reach * normal;
-	forIn(place.cwiseMin(end) - margin, place.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
+	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = position + reach * normal;
+	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!isInFront(d)) return;
-		const Vec<Dim> away   = d.centre - place;
-		const double   across = away.dot(normal), straight = entry(place, normal, d);
+		const Vec<Dim> away   = d.centre - position;
+		const double   across = away.dot(normal), straight = entry(position, normal, d);
 		const bool     passes = ((away - across * normal).array().abs() > d.half.array() + beside).any();
 		const double   here   = passes ? infinite : across - normal.cwiseAbs().dot(d.half);
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
@@ -85,16 +85,16 @@ double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, dou
 	return hit < infinite && hit < near + 2 * beside ? hit : near;
 }
 
-/// How much soil there is is a volume, which does not jump: that in a box in front of the place where the soil begins.
-/// A quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends
-/// the parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle
-/// of the soil in it; what is missing besides are gaps.
-template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& hides) const
+/// How much soil there is is a volume, which does not jump: that in a box in front of the contact point where the soil
+/// begins. A quarter of the box is nothing, three quarters are full, so that over the contact points on both sides of
+/// where soil ends the parts add up to the area that it covers. How much of the box that end leaves along an axis is
+/// told by the middle of the soil in it; what is missing besides are gaps.
+template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
-	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront, hides);
+	const double half = 0.25 * cellSize_, gap = gapFrom(position, normal, reach, isInFront, hides);
 	if (!(gap <= reach)) return std::nullopt;
-	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = place + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
+	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = position + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
 	double         volume = 0, stiff = 0;
 	Vec<Dim>       moment = Vec<Dim>::Zero();
 	forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {

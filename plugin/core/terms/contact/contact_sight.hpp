@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What soil there is in front of a place on the surface of a body.
+// What soil there is in front of a contact point on the surface of a body.
 #pragma once
 #include "core/base/types.hpp"
 #include <cstdint>
@@ -17,7 +17,7 @@ template <int Dim> struct SoilDomain {
 	Vec<Dim> outward;      ///< normal of the body's surface closest to its centre, unit
 };
 
-/// Soil in front of a place.
+/// Soil in front of a contact point.
 struct Sight {
 	double gap;      ///< to it along the normal, < 0 where it overlaps the body [m]
 	double presence; ///< from 0, no soil, to 1, soil in full
@@ -29,16 +29,16 @@ template <int Dim> class SoilNear {
 public:
 	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
 
-	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks
-	/// elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the
+	/// Looks from a contact point along the normal, no farther than the reach. Soil whose closest side of the body
+	/// looks elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the
 	/// middles of domains, empty where nothing hides any.
 	using Hides = std::function<bool(const Vec<Dim>& centre)>;
-	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& = {}) const;
+	std::optional<Sight> from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& = {}) const;
 
 	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }
 
 private:
-	template <class F> double gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides&) const;
+	template <class F> double gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides&) const;
 	template <class F> void   forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
 	Index<Dim>                bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
 

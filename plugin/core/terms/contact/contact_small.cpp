@@ -15,11 +15,11 @@ constexpr double wideFace = 4, wideBall = 2;
 /// Of a feature that goes so far into the soil from its edge [cells]: less and less from two cells to three.
 double shareOf(double reach) { return std::clamp(3 - reach, 0., 1.); }
 
-/// Whether the cell of a place, so many cells from it along some axes, has soil in it.
-template <int Dim> bool hasSoil(const Attachment<Dim>& place, const Index<Dim>& away, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+/// Whether the cell of a contact point, so many cells from it along some axes, has soil in it.
+template <int Dim> bool hasSoil(const Attachment<Dim>& attachment, const Index<Dim>& away, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
-	const Vec<Dim> middle = (place.cell + away).template cast<double>() + Vec<Dim>::Constant(0.5);
-	return attach(Vec<Dim>(grid.origin + grid.size(place.level) * middle), basis, grid, layer).has_value();
+	const Vec<Dim> middle = (attachment.cell + away).template cast<double>() + Vec<Dim>::Constant(0.5);
+	return attach(Vec<Dim>(grid.origin + grid.size(attachment.level) * middle), basis, grid, layer).has_value();
 }
 
 /// Planes of symmetry: rows of nodes that are held across them alone.
@@ -45,13 +45,13 @@ public:
 		return true;
 	}
 
-	/// Along each axis on which side of the cell of a place there is one: 1, -1, or 0 for none.
-	Index<Dim> beside(const Attachment<Dim>& place) const
+	/// Along each axis on which side of the cell of a contact point there is one: 1, -1, or 0 for none.
+	Index<Dim> beside(const Attachment<Dim>& attachment) const
 	{
 		Index<Dim> sides = Index<Dim>::Zero();
 		for (int a = 0; a < Dim; ++a)
 			for (const int side : { -1, 1 })
-				if (has(place.cell, place.level, a, side)) sides[a] = side;
+				if (has(attachment.cell, attachment.level, a, side)) sides[a] = side;
 		return sides;
 	}
 
@@ -62,11 +62,11 @@ private:
 	const int              layer_;
 };
 
-/// Whether soil goes on beside a place along an axis of the grid, for two cells or to a plane of symmetry: in its row
-/// of cells or in the one beyond that, as seen along the normal.
+/// Whether soil goes on beside a contact point along an axis of the grid, for two cells or to a plane of symmetry: in
+/// its row of cells or in the one beyond that, as seen along the normal.
 template <int Dim>
 bool goesOn(
-        const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int side, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer,
+        const Attachment<Dim>& attachment, const Vec<Dim>& normal, int axis, int side, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer,
         const Mirrors<Dim>& mirrors)
 {
 	Index<Dim> beside = Index<Dim>::Zero(), deeper = beside;
@@ -75,8 +75,8 @@ bool goesOn(
 	beside[axis] = side, deeper[across] = normal[across] < 0 ? -1 : 1;
 	const auto isSoil = [&](const Index<Dim>& from) {
 		for (int step = 0; step < 2; ++step) {
-			if (mirrors.has(place.cell + from + step * beside, place.level, axis, side)) return true;
-			if (!hasSoil<Dim>(place, from + (step + 1) * beside, basis, grid, layer)) return false;
+			if (mirrors.has(attachment.cell + from + step * beside, attachment.level, axis, side)) return true;
+			if (!hasSoil<Dim>(attachment, from + (step + 1) * beside, basis, grid, layer)) return false;
 		}
 		return true;
 	};
@@ -89,12 +89,12 @@ bool isSmall(double width, double cellSize) { return width > cellSize * (1 + 1e-
 
 } // namespace
 
-template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>& pose, const std::vector<PlaceOnFace<Dim>>& places)
+template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>& pose, const std::vector<FacePoint<Dim>>& positions)
 {
 	constexpr double   none = std::numeric_limits<double>::infinity();
 	Index<Dim>         side = Index<Dim>::Zero();
 	std::array<int, 3> faces {};
-	for (const auto& [place, direction] : places) {
+	for (const auto& [position, direction] : positions) {
 		const Vec<Dim> normal = pose.rotation.transpose() * direction;
 		int            across;
 		const double   size = normal.cwiseAbs().maxCoeff(&across);
@@ -104,25 +104,26 @@ template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<
 	}
 	if (std::count(faces.begin(), faces.end(), 0) > 1) return none;
 	double most = 0;
-	for (const auto& [place, direction] : places) {
-		const Vec<Dim> normal = pose.rotation.transpose() * direction, own = pose.inBody(place);
+	for (const auto& [position, direction] : positions) {
+		const Vec<Dim> normal = pose.rotation.transpose() * direction, own = pose.inBody(position);
 		for (int a = 0; a < Dim; ++a)
 			if (side[a] != 0 && std::abs(normal[a]) < 0.5) most = std::max(most, block.shape.halfSize[a] - side[a] * own[a]);
 	}
 	return most;
 }
 
-template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>& pose, const std::vector<PlaceOnFace<Dim>>& places)
+template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>& pose, const std::vector<FacePoint<Dim>>& positions)
 {
 	double most = 0;
-	for (const auto& at : places)
-		most = std::max(most, -sheet.proximity(pose, at.place, 1).beside);
+	for (const auto& at : positions)
+		most = std::max(most, -sheet.proximity(pose, at.position, 1).beside);
 	return most;
 }
 
 namespace {
 
-/// Along the axes of the grid, of a place on a block: one along those to which a small side of its face is close.
+/// Along the axes of the grid, of a contact point on a block: one along those to which a small side of its face is
+/// close.
 template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec<Dim>& normal, double cellSize)
 {
 	Vec<Dim> shares = Vec<Dim>::Zero();
@@ -136,28 +137,28 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 }
 
 /// Half of a body beyond a plane of symmetry has the images of its faces: soil is on either side of it.
-template <int Dim> bool isHalved(const std::vector<PlaceOnFace<Dim>>& places, const std::vector<Index<Dim>>& mirrors)
+template <int Dim> bool isHalved(const std::vector<FacePoint<Dim>>& positions, const std::vector<Index<Dim>>& mirrors)
 {
-	for (const PlaceOnFace<Dim>& place : places) {
+	for (const FacePoint<Dim>& contactPoint : positions) {
 		int across;
-		place.normal.cwiseAbs().maxCoeff(&across);
+		contactPoint.normal.cwiseAbs().maxCoeff(&across);
 		if (std::any_of(mirrors.begin(), mirrors.end(), [&](const Index<Dim>& sides) { return sides[across] != 0; })) return true;
 	}
 	return false;
 }
 
-/// By how much each place presses by wider functions, along the axes of the grid: where the whole body is small, by an
-/// edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts over one
-/// anyway.
-template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize, bool isHalved)
+/// By how much each contact point presses by wider functions, along the axes of the grid: where the whole body is
+/// small, by an edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts
+/// over one anyway.
+template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<FacePoint<Dim>>& positions, double cellSize, bool isHalved)
 {
 	const auto kind  = body.shape.kind;
 	double     share = kind == RigidKind::ball && body.thickness() < wideBall * cellSize * (1 - 1e-9);
-	if (kind == RigidKind::sheet) share = shareOf(reachFromBorder(body, body.begin, places) / cellSize);
+	if (kind == RigidKind::sheet) share = shareOf(reachFromBorder(body, body.begin, positions) / cellSize);
 	const bool isBlock = kind == RigidKind::block;
-	if (isBlock && body.thickness() > cellSize * (1 + 1e-9) && !isHalved) share = shareOf(reachFromEdge(body, body.begin, places) / cellSize);
+	if (isBlock && body.thickness() > cellSize * (1 + 1e-9) && !isHalved) share = shareOf(reachFromEdge(body, body.begin, positions) / cellSize);
 	std::vector<Vec<Dim>> shares;
-	for (const auto& [place, normal] : places) {
+	for (const auto& [position, normal] : positions) {
 		shares.push_back(isBlock ? sharesOnBlock(body, normal, cellSize) : Vec<Dim>::Zero());
 		for (int a = 0; a < Dim; ++a)
 			if (std::abs(normal[a]) < 0.9) shares.back()[a] = std::max(shares.back()[a], share);
@@ -168,63 +169,65 @@ template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, co
 } // namespace
 
 /// Numbers of the first place of a body and of that behind its last one.
-template <int Dim> std::pair<int, int> Contact<Dim>::placesOf(int body) const
+template <int Dim> std::pair<int, int> Contact<Dim>::contactPointsOf(int body) const
 {
-	const auto isOfEarlier = [](int of) { return [of](const Place& place) { return place.body < of; }; };
-	const auto numberOf    = [&](int of) { return int(std::partition_point(places_.begin(), places_.end(), isOfEarlier(of)) - places_.begin()); };
+	const auto isOfEarlier = [](int of) { return [of](const ContactPoint& contactPoint) { return contactPoint.body < of; }; };
+	const auto numberOf
+	        = [&](int of) { return int(std::partition_point(contactPoints_.begin(), contactPoints_.end(), isOfEarlier(of)) - contactPoints_.begin()); };
 	return { numberOf(body), numberOf(body + 1) };
 }
 
 /// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
 /// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
 /// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is
-/// spread, nor on a body that is one with others that have places, as a facet of a mesh is.
+/// spread, nor on a body that is one with others that have contact points, as a facet of a mesh is.
 template <int Dim> void Contact<Dim>::widen(int number)
 {
 	const auto& body = system_.bodies[number];
 	if (isRing_ || grid_.isPeriodic() || grid_.parting || body.nodes > 0) return;
-	const double                  h    = grid_.cellSize;
-	const Mat<Dim>                back = body.free < 0 ? Mat<Dim>(body.begin.rotation * body.end.rotation.transpose()) : Mat<Dim>::Identity();
-	std::vector<Place*>           own;
-	std::vector<PlaceOnFace<Dim>> at;
-	const auto [first, last] = placesOf(number);
+	const double                h    = grid_.cellSize;
+	const Mat<Dim>              back = body.free < 0 ? Mat<Dim>(body.begin.rotation * body.end.rotation.transpose()) : Mat<Dim>::Identity();
+	std::vector<ContactPoint*>  own;
+	std::vector<FacePoint<Dim>> at;
+	const auto [first, last] = contactPointsOf(number);
 	for (int i = first; i < last; ++i)
-		own.push_back(&places_[i]), at.push_back({ places_[i].soil, back * places_[i].normal });
+		own.push_back(&contactPoints_[i]), at.push_back({ contactPoints_[i].soil, back * contactPoints_[i].normal });
 	std::vector<Vec<Dim>> shares = sharesOf(body, at, h, false);
 	if (std::all_of(shares.begin(), shares.end(), [](const Vec<Dim>& share) { return share.isZero(0); })) return;
 	const auto around   = bodiesAround(number);
 	const auto isJoined = [&](int b) {
-		const auto [begin, end] = placesOf(b);
+		const auto [begin, end] = contactPointsOf(b);
 		return begin < end && system_.bodies[b].shape.kind != RigidKind::plane;
 	};
 	if (std::any_of(around.begin(), around.end(), isJoined)) return;
-	const auto              planesOf = [&](const Place& place) { return Mirrors<Dim>(basis_, grid_, dofs_, int(place.number >> placeBits)); };
+	const auto planesOf
+	        = [&](const ContactPoint& contactPoint) { return Mirrors<Dim>(basis_, grid_, dofs_, int(contactPoint.number >> contactPointBits)); };
 	std::vector<Index<Dim>> mirrors;
-	for (const Place* place : own)
-		mirrors.push_back(planesOf(*place).beside(place->attached));
+	for (const ContactPoint* contactPoint : own)
+		mirrors.push_back(planesOf(*contactPoint).beside(contactPoint->attached));
 	if (isHalved<Dim>(at, mirrors)) shares = sharesOf(body, at, h, true);
 	std::array<bool, Dim> isEnd {};
 	for (std::size_t i = 0; i < own.size(); ++i)
 		for (int a = 0; a < Dim; ++a) {
-			const auto& place = own[i]->attached;
-			const int   side = shares[i][a] > 0 ? sideInCell(place, a) : 0, layer = int(own[i]->number >> placeBits);
+			const auto& contactPoint = own[i]->attached;
+			const int   side = shares[i][a] > 0 ? sideInCell(contactPoint, a) : 0, layer = int(own[i]->number >> contactPointBits);
 			if (side == 0 || mirrors[i][a] == side || side * at[i].normal[a] <= -0.3) continue;
-			if (!goesOn(place, at[i].normal, a, side, basis_, grid_, layer, planesOf(*own[i]))) isEnd[a] = true;
+			if (!goesOn(contactPoint, at[i].normal, a, side, basis_, grid_, layer, planesOf(*own[i]))) isEnd[a] = true;
 		}
 	for (std::size_t i = 0; i < own.size(); ++i) {
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
-		const int layer = int(own[i]->number >> placeBits);
+		const int layer = int(own[i]->number >> contactPointBits);
 		if (!shares[i].isZero(0)) own[i]->pressed = Footprint<Dim>(own[i]->attached, shares[i], basis_, grid_, layer, mirrors[i]);
 	}
 }
 
-template double              reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
-template double              reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
-template double              reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
-template double              reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
-template std::pair<int, int> Contact<2>::placesOf(int) const;
-template std::pair<int, int> Contact<3>::placesOf(int) const;
+template double              reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
+template double              reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
+template double              reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
+template double              reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
+template std::pair<int, int> Contact<2>::contactPointsOf(int) const;
+template std::pair<int, int> Contact<3>::contactPointsOf(int) const;
 template void                Contact<2>::widen(int);
 template void                Contact<3>::widen(int);
 

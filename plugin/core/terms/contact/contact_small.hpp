@@ -6,16 +6,16 @@
 
 namespace gimpm {
 
-/// A place where soil is before a body, and the normal of its face, unit.
-template <int Dim> struct PlaceOnFace {
-	Vec<Dim> place, normal;
+/// A contact point where soil is before a body, and the normal of its face, unit.
+template <int Dim> struct FacePoint {
+	Vec<Dim> position, normal;
 };
 
-/// How far from the edge between faces that have soil before them places of these are [m]; infinite if the faces do
-/// not meet in one.
-template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>&, const std::vector<PlaceOnFace<Dim>>&);
+/// How far from the edge between faces that have soil before them contact points of these are [m]; infinite if the
+/// faces do not meet in one.
+template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>&, const std::vector<FacePoint<Dim>>&);
 
 /// The same of the border of a sheet.
-template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>&, const std::vector<PlaceOnFace<Dim>>&);
+template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>&, const std::vector<FacePoint<Dim>>&);
 
 } // namespace gimpm

@@ -32,10 +32,10 @@ SurfacePoints<2> onBall(double radius, const Mat<2>& axes, double spacing, const
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i) {
 		const double angle = 2 * M_PI * (i + 0.5) / parts, half = std::tan(M_PI / parts);
-		const Vec<2> normal = axes * Vec<2>(std::cos(angle), std::sin(angle)), place = radius * normal;
-		if (box.has(place))
-			points.push_back(
-			        { i, place, normal, 2 * M_PI * radius / parts, Vec<2>::Zero(), cornersAround(place, half * Vec<2>(-place[1], place[0])) });
+		const Vec<2> normal = axes * Vec<2>(std::cos(angle), std::sin(angle)), contactPoint = radius * normal;
+		if (box.has(contactPoint))
+			points.push_back({ i, contactPoint, normal, 2 * M_PI * radius / parts, Vec<2>::Zero(),
+			                   cornersAround(contactPoint, half * Vec<2>(-contactPoint[1], contactPoint[0])) });
 	}
 	return points;
 }
@@ -63,30 +63,30 @@ SurfacePoints<3> onBall(double radius, const Mat3& axes, double spacing, const B
 			x[face / 2] = face % 2 ? 1 : -1, x[(face / 2 + 1) % 3] = tangents[k], x[(face / 2 + 2) % 3] = tangents[l];
 			return Vec3(axes * x.normalized());
 		};
-		const Vec3 normal = at(2 * i + 1, 2 * j + 1), place = radius * normal;
-		if (!box.has(place)) continue;
+		const Vec3 normal = at(2 * i + 1, 2 * j + 1), contactPoint = radius * normal;
+		if (!box.has(contactPoint)) continue;
 		const double              area = 4 * M_PI * radius * radius * areaAt(i, j) / sum;
 		const std::array<Vec3, 4> corners { radius * at(2 * i, 2 * j), radius * at(2 * i + 2, 2 * j), radius * at(2 * i + 2, 2 * j + 2),
 			                            radius * at(2 * i, 2 * j + 2) };
-		points.push_back({ number, place, normal, area, Vec3::Zero(), corners });
+		points.push_back({ number, contactPoint, normal, area, Vec3::Zero(), corners });
 	}
 	return points;
 }
 
-std::array<Vec<2>, 2> cornersAcross(const Vec<2>& place, const Vec<2>& half, int across)
+std::array<Vec<2>, 2> cornersAcross(const Vec<2>& position, const Vec<2>& half, int across)
 {
-	return cornersAround(place, half[1 - across] * Vec<2>::Unit(1 - across));
+	return cornersAround(position, half[1 - across] * Vec<2>::Unit(1 - across));
 }
-std::array<Vec3, 4> cornersAcross(const Vec3& place, const Vec3& half, int across)
+std::array<Vec3, 4> cornersAcross(const Vec3& position, const Vec3& half, int across)
 {
 	const int a = (across + 1) % 3, b = (across + 2) % 3;
-	return cornersAround(place, half[a] * Vec3::Unit(a), half[b] * Vec3::Unit(b));
+	return cornersAround(position, half[a] * Vec3::Unit(a), half[b] * Vec3::Unit(b));
 }
 
-/// The places on a face of a block, numbered row by row, of which those in a box are met.
+/// The contact points on a face of a block, numbered row by row, of which those in a box are met.
 template <int Dim> struct FaceOfBlock {
 	int        across;
-	Vec<Dim>   normal, half, acting, part = Vec<Dim>::Zero(); // half of the block and of what acts, and of the part of a place
+	Vec<Dim>   normal, half, acting, part = Vec<Dim>::Zero(); // half of the block and of what acts, and of the part of a contact point
 	Index<Dim> parts = Index<Dim>::Ones(), from = Index<Dim>::Zero(), to = Index<Dim>::Zero();
 	double     area = 1;
 	bool       isMet;
@@ -108,14 +108,14 @@ template <int Dim> struct FaceOfBlock {
 
 	SurfacePoint<Dim> at(std::int64_t first, const Index<Dim>& i) const
 	{
-		Vec<Dim>     place = half[across] * normal, aside = Vec<Dim>::Zero();
+		Vec<Dim>     position = half[across] * normal, aside = Vec<Dim>::Zero();
 		std::int64_t number = 0;
 		for (int a = Dim - 1; a >= 0; --a) {
 			const double share = (2 * i[a] + 1.) / parts[a] - 1;
-			if (a != across) place[a] = half[a] * share, aside[a] = (acting[a] - half[a]) * share;
+			if (a != across) position[a] = half[a] * share, aside[a] = (acting[a] - half[a]) * share;
 			number = number * parts[a] + i[a];
 		}
-		return { first + number, place, normal, area, aside, cornersAcross(place, part, across) };
+		return { first + number, position, normal, area, aside, cornersAcross(position, part, across) };
 	}
 
 	bool next(Index<Dim>& i) const
@@ -144,9 +144,9 @@ template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spaci
 /// A sheet that has a thickness has its sides apart from each other.
 template <int Dim> void addSides(SurfacePoints<Dim>& points, SurfacePoint<Dim> point, bool isTwoSided, const Box<Dim>& box, double halfThickness = 0)
 {
-	if (!box.has(point.place)) return;
+	if (!box.has(point.position)) return;
 	const auto move = [&](const Vec<Dim>& way) {
-		point.place += way;
+		point.position += way;
 		for (auto& corner : point.corners)
 			corner += way;
 	};
@@ -165,8 +165,9 @@ SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bo
 	const int        parts = evenParts(along.norm(), spacing);
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i) {
-		const Vec<2> place = corner[0] + (i + 0.5) / parts * along;
-		addSides<2>(points, { i, place, normal, along.norm() / parts, Vec<2>::Zero(), cornersAround(place, along / (2 * parts)) }, isTwoSided, box);
+		const Vec<2> position = corner[0] + (i + 0.5) / parts * along;
+		addSides<2>(
+		        points, { i, position, normal, along.norm() / parts, Vec<2>::Zero(), cornersAround(position, along / (2 * parts)) }, isTwoSided, box);
 	}
 	return points;
 }
@@ -220,18 +221,18 @@ SurfacePoints<3> onCapsule(const RigidShape<3>& shape, double spacing, const Box
 	std::int64_t     number = 0;
 	for (int i = 0; i < parts; ++i)
 		for (int j = 0; j < strips; ++j, ++number) {
-			const Vec3 normal = std::cos((j + 0.5) * angle) * first + std::sin((j + 0.5) * angle) * second;
-			const Vec3 place  = shape.corners[0] + (i + 0.5) / parts * along + shape.radius * normal;
-			if (!box.has(place)) continue;
-			points.push_back({ number, place, normal, area, Vec3::Zero(),
-			                   cornersAround(place, along / (2 * parts), half * shape.radius * axis.cross(normal)) });
+			const Vec3 normal   = std::cos((j + 0.5) * angle) * first + std::sin((j + 0.5) * angle) * second;
+			const Vec3 position = shape.corners[0] + (i + 0.5) / parts * along + shape.radius * normal;
+			if (!box.has(position)) continue;
+			points.push_back({ number, position, normal, area, Vec3::Zero(),
+			                   cornersAround(position, along / (2 * parts), half * shape.radius * axis.cross(normal)) });
 		}
 	for (int end = 0; end < 2; ++end)
 		for (SurfacePoint<3> point :
 		     onBall(shape.radius, shape.axes, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
 			if (point.normal.dot(end == 0 ? Vec3(-axis) : axis) <= 0) continue;
 			point.number = number + 2 * point.number + end;
-			point.place += shape.corners[end];
+			point.position += shape.corners[end];
 			for (Vec3& corner : point.corners)
 				corner += shape.corners[end];
 			points.push_back(point);
@@ -255,14 +256,14 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 	}
 	for (std::int64_t i = from[0]; i <= to[0]; ++i)
 		for (std::int64_t j = from[1]; j <= to[1]; ++j) {
-			Vec<Dim> place = Vec<Dim>::Zero();
-			place[axes[0]] = (double(i) + 0.5) * spacing;
-			if (Dim == 3) place[axes[1]] = (double(j) + 0.5) * spacing;
+			Vec<Dim> position = Vec<Dim>::Zero();
+			position[axes[0]] = (double(i) + 0.5) * spacing;
+			if (Dim == 3) position[axes[1]] = (double(j) + 0.5) * spacing;
 			const std::int64_t number = (i + most) * 2 * most + j + most;
 			addSides<Dim>(
 			        points,
-			        { number, place, shape.normal, std::pow(spacing, Dim - 1), Vec<Dim>::Zero(),
-			          cornersAcross(place, Vec<Dim>::Constant(spacing / 2), across) },
+			        { number, position, shape.normal, std::pow(spacing, Dim - 1), Vec<Dim>::Zero(),
+			          cornersAcross(position, Vec<Dim>::Constant(spacing / 2), across) },
 			        shape.isTwoSided, box);
 		}
 	return points;

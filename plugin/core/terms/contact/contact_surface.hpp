@@ -8,12 +8,12 @@
 
 namespace gimpm {
 
-/// A place on a body, in the body's axes, and the part of the surface around it that it stands for.
+/// A contact point on a body, in the body's axes, and the part of the surface around it that it stands for.
 template <int Dim> struct SurfacePoint {
-	std::int64_t number;        ///< its name as long as shape and spacing stay the same
-	Vec<Dim>     place, normal; ///< the normal is that of its face, unit, out of the body
-	double       area;          ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
-	Vec<Dim>     aside;         ///< along the face, from the place to where it acts on the soil
+	std::int64_t number;           ///< its name as long as shape and spacing stay the same
+	Vec<Dim>     position, normal; ///< the normal is that of its face, unit, out of the body
+	double       area;             ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
+	Vec<Dim>     aside;            ///< along the face, from the contact point to where it acts on the soil
 
 	/// Of that part, around it; of a triangle the last two are one.
 	std::array<Vec<Dim>, 2 * (Dim - 1)> corners;

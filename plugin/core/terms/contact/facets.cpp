@@ -92,20 +92,20 @@ template <int Dim> bool Facets<Dim>::isThere(const Piece& piece) const
 	return std::all_of(piece.begin(), piece.end(), [&](int v) { return at[v].has_value(); });
 }
 
-template <int Dim> std::vector<Vec<Dim>> Facets<Dim>::placesAt(const Eigen::VectorXd& d) const
+template <int Dim> std::vector<Vec<Dim>> Facets<Dim>::positionsAt(const Eigen::VectorXd& d) const
 {
-	Places places = start;
-	for (std::size_t v = 0; v < places.size(); ++v)
-		if (at[v]) places[v] += at[v]->displacement(d);
-	return places;
+	Positions positions = start;
+	for (std::size_t v = 0; v < positions.size(); ++v)
+		if (at[v]) positions[v] += at[v]->displacement(d);
+	return positions;
 }
 
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
-	if (auto attached = attach(place, basis, grid, layer)) return attached;
+	if (auto attached = attach(position, basis, grid, layer)) return attached;
 	std::optional<Vec<Dim>> nearest;
 	double                  least = std::numeric_limits<double>::infinity();
-	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
+	const Vec<Dim>          xi    = (position - grid.origin) / grid.cellSize;
 	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
 	const Index<Dim> own = xi.array().floor().template cast<int>();
 	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
@@ -121,9 +121,9 @@ template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& pla
 	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
 }
 
-template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(const Vec<Dim>& place)
+template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(const Vec<Dim>& position)
 {
-	const Vec<Dim> xi       = (place - grid_.origin) / grid_.size(0);
+	const Vec<Dim> xi       = (position - grid_.origin) / grid_.size(0);
 	const auto     isInside = [](const Vec<Dim>& local) { return (local.array() > 0).all() && (local.array() < 1).all(); };
 	if (last_) {
 		const Vec<Dim> local = xi - last_->cell.template cast<double>();
@@ -132,7 +132,7 @@ template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(cons
 			return last_;
 		}
 	}
-	const auto found = attachNear(place, basis_, grid_, layer_);
+	const auto found = attachNear(position, basis_, grid_, layer_);
 	if (found && !grid_.refinement && !grid_.parting && isInside(xi - found->cell.template cast<double>())) last_ = found;
 	return found;
 }

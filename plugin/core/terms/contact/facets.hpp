@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The surface of a body of points in one step: places that move with the linear functions of the grid.
+// The surface of a body of points in one step: contact points that move with the linear functions of the grid.
 #pragma once
 #include "core/grid/attachment.hpp"
 #include "core/grid/surface.hpp"
@@ -9,10 +9,10 @@ namespace gimpm {
 /// Pieces of a surface; they are cut where they cross the lines or planes of the grid, so that what acts on them evenly
 /// acts on the nodes as an even stress does. Vertices of the surface come first, in its order.
 template <int Dim> struct Facets {
-	using Piece  = typename Surface<Dim>::Piece;
-	using Places = std::vector<Vec<Dim>>;
+	using Piece     = typename Surface<Dim>::Piece;
+	using Positions = std::vector<Vec<Dim>>;
 
-	Places                                      start; ///< of the vertices [m]
+	Positions                                   start; ///< of the vertices [m]
 	std::vector<std::optional<Attachment<Dim>>> at;    ///< none: there is no material near
 	std::vector<Piece>                          pieces;
 	std::vector<int>                            whole; ///< of each piece, the piece of the surface that it is part of
@@ -20,21 +20,21 @@ template <int Dim> struct Facets {
 	/// Of the body whose nodes are in a layer.
 	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 
-	bool   isThere(const Piece&) const; ///< all of its vertices
-	Places placesAt(const Eigen::VectorXd& d) const;
+	bool      isThere(const Piece&) const; ///< all of its vertices
+	Positions positionsAt(const Eigen::VectorXd& d) const;
 };
 
-/// As attach(), and farther away the place in the nearest cell of its neighbours that is populated: what soil leaves
-/// behind of its surface goes with it.
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
+/// As attach(), and farther away the contact point in the nearest cell of its neighbours that is populated: what soil
+/// leaves behind of its surface goes with it.
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 
-/// The same for one place after another of a body: those inside of the cell that the last one was inside of need not
-/// look for its nodes.
+/// The same for one contact point after another of a body: those inside of the cell that the last one was inside of
+/// need not look for its nodes.
 template <int Dim> class Attacher {
 public:
 	/// The basis and the grid must outlive it.
 	Attacher(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : basis_(basis), grid_(grid), layer_(layer) { }
-	std::optional<Attachment<Dim>> operator()(const Vec<Dim>& place);
+	std::optional<Attachment<Dim>> operator()(const Vec<Dim>& position);
 
 private:
 	const CloudBasis<Dim>&         basis_;

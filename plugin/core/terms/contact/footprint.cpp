@@ -12,7 +12,7 @@ struct AlongAxis {
 	std::array<double, 3> weight {};
 };
 
-template <int Dim> double inCell(const Attachment<Dim>& place, int axis) { return place.inCell()[axis] / (1 << place.level); }
+template <int Dim> double inCell(const Attachment<Dim>& attachment, int axis) { return attachment.inCell()[axis] / (1 << attachment.level); }
 
 AlongAxis linear(int cell, double local) { return { cell, 2, { 1 - local, local, 0 } }; }
 
@@ -37,25 +37,25 @@ int image(int node, int cell, int mirror)
 
 } // namespace
 
-template <int Dim> int sideInCell(const Attachment<Dim>& place, int axis)
+template <int Dim> int sideInCell(const Attachment<Dim>& attachment, int axis)
 {
-	const double local = inCell(place, axis);
+	const double local = inCell(attachment, axis);
 	if (local < 0 || local > 1 || std::abs(local - 0.5) < 1e-9) return 0;
 	return local < 0.5 ? -1 : 1;
 }
 
 template <int Dim>
 Footprint<Dim>::Footprint(
-        const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer, const Index<Dim>& mirrors)
-        : Footprint(place)
+        const Attachment<Dim>& attachment, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer, const Index<Dim>& mirrors)
+        : Footprint(attachment)
 {
 	std::array<AlongAxis, Dim> along;
 	for (int a = 0; a < Dim; ++a)
-		along[a] = linear(place.cell[a], inCell(place, a));
+		along[a] = linear(attachment.cell[a], inCell(attachment, a));
 	for (int a = 0; a < Dim; ++a) {
-		if (!(shares[a] > 0) || sideInCell(place, a) == 0) continue;
+		if (!(shares[a] > 0) || sideInCell(attachment, a) == 0) continue;
 		const AlongAxis kept = along[a];
-		along[a]             = spread(place.cell[a], inCell(place, a), shares[a]);
+		along[a]             = spread(attachment.cell[a], inCell(attachment, a), shares[a]);
 		Footprint  wider;
 		bool       isThere = true;
 		Index<Dim> i       = Index<Dim>::Zero();
@@ -63,8 +63,8 @@ Footprint<Dim>::Footprint(
 			const int n     = wider.nodes++;
 			wider.weight[n] = 1;
 			for (int c = 0; c < Dim; ++c)
-				wider.at[n][c] = image(along[c].from + i[c], place.cell[c], mirrors[c]), wider.weight[n] *= along[c].weight[i[c]];
-			wider.node[n] = find(basis.nodes, Grid<Dim>::key(grid.first(wider.at[n] * (1 << place.level)), place.level, layer));
+				wider.at[n][c] = image(along[c].from + i[c], attachment.cell[c], mirrors[c]), wider.weight[n] *= along[c].weight[i[c]];
+			wider.node[n] = find(basis.nodes, Grid<Dim>::key(grid.first(wider.at[n] * (1 << attachment.level)), attachment.level, layer));
 			isThere       = wider.node[n] >= 0;
 			for (b = 0; b < Dim && ++i[b] == along[b].count; ++b)
 				i[b] = 0;

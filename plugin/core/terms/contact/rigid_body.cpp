@@ -33,7 +33,7 @@ template <int Dim> Proximity<Dim> fromBlock(const RigidShape<Dim>& shape, const 
 	return { distance - shape.radius, normal, Mat<Dim>((moves - normal * normal.transpose()) / distance) };
 }
 
-/// How far a place in the plane of a sheet is beside it.
+/// How far a contact point in the plane of a sheet is beside it.
 double besideOf(const std::array<Vec<2>, 2>& corner, const Vec<2>&, const Vec<2>& own)
 {
 	const Vec<2> along = (corner[1] - corner[0]).normalized();

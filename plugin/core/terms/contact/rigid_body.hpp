@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rigid bodies beside the soil: where they are, and how far a place is from them.
+// Rigid bodies beside the soil: where they are, and how far a contact point is from them.
 #pragma once
 #include "core/base/types.hpp"
 #include <array>
@@ -38,14 +38,14 @@ template <int Dim> struct RigidShape {
 	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, or the ends of a capsule, in the body's axes [m]; of others not set
 	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
 	int                       parts      = 0;              ///< into which the longest edge of a body that deforms is divided; 0: by its length
-	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the places on a ball, which may have turned on it
+	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the contact points on a ball, which may have turned on it
 };
 
 /// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.
 Vec<2> normalOf(const std::array<Vec<2>, 2>& corners);
 Vec3   normalOf(const std::array<Vec3, 3>& corners);
 
-/// Of a place from a body.
+/// Of a contact point from a body.
 template <int Dim> struct Proximity {
 	double   gap              = 0;                                        ///< distance to the surface, < 0 inside [m]
 	Vec<Dim> normal           = Vec<Dim>::Zero();                         ///< unit, out of the body
@@ -74,7 +74,7 @@ template <int Dim> struct RigidBody {
 	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
 	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;
 
-	/// Of a two-sided surface that on which a place is.
+	/// Of a two-sided surface that on which a contact point is.
 	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
 
 	/// Its smallest size; planes and rigid sheets have none [m].
@@ -86,14 +86,14 @@ template <int Dim> struct RigidBody {
 	/// Whether what presses along a normal, in its own axes, is as narrow as that.
 	bool isNarrow(const Vec<Dim>& normal) const;
 
-	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it,
-	/// or is about to. Of planes and sheets the sides are known.
+	/// Whether what went straight from one contact point to another, as seen from the body, came out on another
+	/// side of it, or is about to. Of planes and sheets the sides are known.
 	bool isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const;
 
 	/// Lower and upper corner of the box around it; infinite for planes.
 	std::pair<Vec<Dim>, Vec<Dim>> bounds(const Pose<Dim>&) const;
 
-	/// An upper bound of how far a place on it moves in the step [m].
+	/// An upper bound of how far a contact point on it moves in the step [m].
 	double motion() const;
 
 	/// Where the body's matter that is at x at the end was at the beginning.

@@ -60,12 +60,12 @@ void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 template <int Dim>
 void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, const Patch<Dim>& patch, const PointBasis<Dim>& axes, double mass)
 {
-	Vec<Dim> place; // from -1 to 1
+	Vec<Dim> position; // from -1 to 1
 	int      number = 0;
 	for (int a = 0; a < Dim; ++a) {
 		const double x       = axes[a].value[1] + 2 * axes[a].value[2]; // linear fields are exact
 		const int    isUpper = (patch.span >> a & 1) && x > 1;
-		place[a]             = 2 * (x - isUpper) - 1;
+		position[a]          = 2 * (x - isUpper) - 1;
 		number |= isUpper << a;
 	}
 	const int cell = patch.reached[number]; // none beyond a wall
@@ -77,7 +77,7 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 		field[corner] = 1;
 		for (int a = Dim; a-- > 0;) {
 			node = node * patch.nodesAlong(a) + (number >> a & 1) + (corner >> a & 1);
-			if (corner >> a & 1) field[corner] *= place[a];
+			if (corner >> a & 1) field[corner] *= position[a];
 		}
 		filling.cell.node[corner] = patch.node[node];
 	}

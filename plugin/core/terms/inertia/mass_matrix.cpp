@@ -83,13 +83,13 @@ template <int Dim> void MassMatrix<Dim>::complete(const NodeShare& share, const 
 		std::memcpy(&bits[a], &ofNode, sizeof ofNode);
 	}
 	share.complete(bits);
-	NodeMatrix<Dim> places; // without values
-	places.reset(nodes, true, {}, { 0, 0 });
+	NodeMatrix<Dim> pattern; // without values
+	pattern.reset(nodes, true, {}, { 0, 0 });
 	for (int a = 0; a < int(nodes.size()); ++a) {
 		std::uint64_t ofNode;
 		std::memcpy(&ofNode, &bits[a], sizeof ofNode);
 		for (int code = 0; code < codes; ++code)
-			neighbour_[std::size_t(a) * codes + code] = ofNode >> code & 1 ? places.neighbour(a, code) : -1;
+			neighbour_[std::size_t(a) * codes + code] = ofNode >> code & 1 ? pattern.neighbour(a, code) : -1;
 	}
 }
 

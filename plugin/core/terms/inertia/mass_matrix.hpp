@@ -42,8 +42,7 @@ public:
 	{
 		for (int a = 0; a < nodes(); ++a)
 			for (int code = 0; code < codes; ++code)
-				if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0)
-					f(a, neighbour_[place], code, value_[place]);
+				if (const std::size_t slot = std::size_t(a) * codes + code; neighbour_[slot] >= 0) f(a, neighbour_[slot], code, value_[slot]);
 	}
 
 	/// Rows and columns of the degrees of freedom that are free along an axis, with what is tied to them.
@@ -54,9 +53,9 @@ private:
 
 	void add(int a, int b, int code, double m)
 	{
-		const std::size_t place = std::size_t(a) * codes + code;
-		neighbour_[place]       = b;
-		value_[place] += m;
+		const std::size_t slot = std::size_t(a) * codes + code;
+		neighbour_[slot]       = b;
+		value_[slot] += m;
 	}
 
 	/// Of the matrix that has weight(number) for each number.

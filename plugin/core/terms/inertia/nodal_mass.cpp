@@ -23,7 +23,7 @@ template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, cons
 	return sum;
 }
 
-/// f(degree of freedom, place) for a side of several, whose components stand node by node.
+/// f(degree of freedom, position) for a side of several, whose components stand node by node.
 template <int Dim, class F> void forDofs(int side, std::size_t sides, int nodes, F&& f)
 {
 	for (int dof = 0; dof < Dim * nodes; ++dof)
@@ -63,14 +63,14 @@ template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const 
 	forBoth([&counts = first](int a, int, double) { ++counts[a + 1]; });
 	std::partial_sum(first.begin(), first.end(), first.begin());
 	std::vector<int> next(first.begin(), first.end() - 1);
-	for (int& place : next)
-		++place;
+	for (int& position : next)
+		++position;
 	value.assign(first.back(), 0);
 	neighbour.resize(first.back());
 	forBoth([&, &value = value, &neighbour = neighbour, &first = first](int a, int b, double m) {
-		const int place  = a == b ? first[a] : next[a]++;
-		neighbour[place] = b;
-		value[place] += m;
+		const int position  = a == b ? first[a] : next[a]++;
+		neighbour[position] = b;
+		value[position] += m;
 		lumped_[a] += m;
 	});
 	rows_.sort();

@@ -22,14 +22,14 @@ template <int Dim> struct CellCorners {
 		}
 	}
 
-	/// Of a component along axes a and b, at a place of the third.
-	double mixed(int component, int a, int b, const Vec<Dim>& place) const
+	/// Of a component along axes a and b, at a position of the third.
+	double mixed(int component, int a, int b, const Vec<Dim>& position) const
 	{
 		double sum = 0;
 		for (int n = 0; n < 1 << Dim; ++n) {
 			double weight = (n >> a ^ n >> b) & 1 ? -1 : 1;
 			for (int c = 0; c < Dim; ++c)
-				if (c != a && c != b) weight *= n >> c & 1 ? place[c] : 1 - place[c];
+				if (c != a && c != b) weight *= n >> c & 1 ? position[c] : 1 - position[c];
 			sum += weight * u[n][component];
 		}
 		return sum;

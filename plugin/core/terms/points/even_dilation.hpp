@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A motion of the points that changes all volumes in a cell alike, as F-bar has it.
 //
-// The linear functions of a cell have a dilation that differs from place to place by mixed differences of nodal
+// The linear functions of a cell have a dilation that differs from position to position by mixed differences of nodal
 // displacements. With F-bar only that in the centre is resisted, so points would gather on one side of a cell and leave
 // the other, step after step. As in the conservative interpolation of velocities of P. Jenny et al. (2001, J. Comput.
 // Phys. 166: 218-252) and H. Wang et al. (2015, Geochem. Geophys. Geosyst. 16: 2015-2023), a quadratic displacement

@@ -55,7 +55,7 @@ private:
 		std::array<int, corners> node;
 		double                   weight; ///< filled volume over the modulus
 	};
-	/// A place of a drain: conductance [m3/Pa] in the step and pressure outside, or the volume that leaves [m3].
+	/// A position of a drain: conductance [m3/Pa] in the step and pressure outside, or the volume that leaves [m3].
 	struct Outlet {
 		int             drain;
 		Attachment<Dim> at;

@@ -7,42 +7,42 @@
 namespace gimpm {
 namespace {
 
-/// A place of a drain, and the area that it stands for.
-template <int Dim> struct DrainPlace {
+/// A position of a drain, and the area that it stands for.
+template <int Dim> struct DrainPoint {
 	Vec<Dim> at;
 	double   area;
 };
 
 /// Of segments: exact for products of two functions of the grid, wherever they cut the cells.
-std::vector<DrainPlace<2>> placesOf(const Surface<2>& surface, const Grid<2>& grid)
+std::vector<DrainPoint<2>> quadratureOf(const Surface<2>& surface, const Grid<2>& grid)
 {
 	constexpr double           gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
-	std::vector<DrainPlace<2>> places;
+	std::vector<DrainPoint<2>> positions;
 	for (const auto& piece : surface.pieces) {
 		const Vec<2>& from  = surface.vertices[piece[0]];
 		const Vec<2>  way   = surface.vertices[piece[1]] - from;
 		auto          parts = linesCrossed(from, from + way, grid);
 		parts.insert(parts.begin(), 0), parts.push_back(1);
 		for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-			for (const auto& [place, weight] : gauss) {
-				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
+			for (const auto& [position, weight] : gauss) {
+				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + position) / 2;
 				const Vec<2> x    = from + part * way;
-				places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
+				positions.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
 			}
 	}
-	return places;
+	return positions;
 }
 
 /// Of triangles, no larger than a quarter of a cell: their corners, each once.
-std::vector<DrainPlace<3>> placesOf(const Surface<3>& surface, const Grid<3>&)
+std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>&)
 {
-	std::vector<DrainPlace<3>> places;
+	std::vector<DrainPoint<3>> positions;
 	for (const Vec<3>& corner : surface.vertices)
-		places.push_back({ corner, 0 });
+		positions.push_back({ corner, 0 });
 	for (const auto& piece : surface.pieces)
 		for (const int v : piece)
-			places[v].area += surface.normal(piece, surface.vertices).norm() / 3;
-	return places;
+			positions[v].area += surface.normal(piece, surface.vertices).norm() / 3;
+	return positions;
 }
 
 } // namespace
@@ -59,18 +59,18 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 {
 	const Drain<Dim>& drain   = water_.drains[number];
 	const auto&       surface = drain.surface;
-	const auto        corners = attachPlaces(surface.vertices, step, drain.name);
+	const auto        corners = attachPositions(surface.vertices, step, drain.name);
 	if (!corners.obstacle.empty()) return corners.obstacle;
-	vertices_.insert(vertices_.end(), corners.places.begin(), corners.places.end());
-	const auto            places = placesOf(surface, step.grid);
+	vertices_.insert(vertices_.end(), corners.positions.begin(), corners.positions.end());
+	const auto            positions = quadratureOf(surface, step.grid);
 	std::vector<Vec<Dim>> middles;
-	for (const auto& place : places)
-		middles.push_back(place.at);
-	const auto within = Dim == 3 ? corners : attachPlaces(middles, step, drain.name);
+	for (const auto& position : positions)
+		middles.push_back(position.at);
+	const auto within = Dim == 3 ? corners : attachPositions(middles, step, drain.name);
 	if (!within.obstacle.empty()) return within.obstacle;
-	for (std::size_t i = 0; i < places.size(); ++i) {
-		const auto& [x, area] = places[i];
-		const auto&  at       = within.places[i];
+	for (std::size_t i = 0; i < positions.size(); ++i) {
+		const auto& [x, area] = positions[i];
+		const auto&  at       = within.positions[i];
 		const int    cell     = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
 		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
 		const double conductance = passes * drain.conductance * kappa / h_;

@@ -10,7 +10,7 @@ namespace gimpm {
 /// Of the nodes of a patch, where they are along each axis, and in the window of its lowest cell, x fastest.
 template <int Dim> struct PatchShape {
 	int count = 1;
-	int along[windowNodes<Dim>][Dim] {}, place[windowNodes<Dim>] {};
+	int along[windowNodes<Dim>][Dim] {}, inWindow[windowNodes<Dim>] {};
 
 	constexpr PatchShape(int span = 0)
 	{
@@ -18,7 +18,7 @@ template <int Dim> struct PatchShape {
 			count *= 2 + (span >> a & 1);
 		for (int n = 0; n < count; ++n)
 			for (int a = 0, rest = n, stride = 1; a < Dim; rest /= 2 + (span >> a & 1), ++a, stride *= 3)
-				along[n][a] = rest % (2 + (span >> a & 1)), place[n] += stride * along[n][a];
+				along[n][a] = rest % (2 + (span >> a & 1)), inWindow[n] += stride * along[n][a];
 	}
 	static constexpr std::array<PatchShape, 1 << Dim> all()
 	{

@@ -47,7 +47,7 @@ template <int Dim> struct PatchesOfCell {
 		for (; end < last && end->cell == first->cell; ++end) {
 			const PatchShape<Dim>& shape = patchShapes<Dim>[end->span];
 			for (int n = 0; n < shape.count; ++n)
-				if (end->node[n] >= 0) node[shape.place[n]] = end->node[n];
+				if (end->node[n] >= 0) node[shape.inWindow[n]] = end->node[n];
 		}
 	}
 	bool isWhole() const { return *std::min_element(node.begin(), node.end()) >= 0; }
@@ -149,12 +149,12 @@ private:
 	/// The functions of a point, zero at nodes that it does not have.
 	void take(const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
-		const auto& place = patchShapes<Dim>[patch.span].place;
+		const auto& inWindow = patchShapes<Dim>[patch.span].inWindow;
 		std::memset(&at_, 0, sizeof at_);
 		count_ = 0;
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
-			const int a    = place[n];
+			const int a    = inWindow[n];
 			own_[count_++] = a;
 			at_.value[a] = f.value[n], at_.hoop[a] = now.hoop[n], at_.along[a] = now.along[n];
 			for (int i = 0; i < Dim; ++i)

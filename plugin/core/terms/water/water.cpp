@@ -15,7 +15,7 @@ template <int Dim> struct MovedPoint {
 	double            value[windowNodes<Dim>];
 	Vec<Dim>          shapeGradient[windowNodes<Dim>]; // where it is now, in the section of a ring
 	double            hoop[windowNodes<Dim>];          // dilation of the ring by its radial displacement
-	int               code[windowNodes<Dim>];          // of the place in the patch, as offset
+	int               code[windowNodes<Dim>];          // of the position in the patch, as offset
 	Vec<Dim>          displacement = Vec<Dim>::Zero();
 	double            J            = 1; // current volume over that at the start of the step
 
@@ -67,7 +67,7 @@ private:
 	double stretchAround_ = 0;
 };
 
-/// Calls f(place in the basis, moved point) for all points, no two of which share a node at a time.
+/// Calls f(position in the basis, moved point) for all points, no two of which share a node at a time.
 template <int Dim, class F> void forMovedPoints(const CloudBasis<Dim>& basis, const Eigen::VectorXd& d, F&& f)
 {
 	for (const auto& colour : basis.colours) {
@@ -87,16 +87,16 @@ template <int Dim> struct WetPoint {
 	double                     weighs, presses;  // volumes [m3]
 	const double*              beyond = nullptr; // what the pressure has gained from the node to its image that is near the point [Pa]; null: nothing
 
-	WetPoint(const MovedPoint<Dim>& moved, const PressureAround<Dim>& around, WaterPlace place, double volume0, double volume)
+	WetPoint(const MovedPoint<Dim>& moved, const PressureAround<Dim>& around, WaterDomain domain, double volume0, double volume)
 	        : at(moved)
 	        , p(around)
-	        , weighs(place == WaterPlace::everywhere        ? volume0
-	                         : place == WaterPlace::outside ? volume
-	                                                        : 0)
-	        , presses(place == WaterPlace::everywhere        ? 0
-	                          : place == WaterPlace::outside ? volume
-	                                                         : -volume)
-	        , follows_(place == WaterPlace::outside)
+	        , weighs(domain == WaterDomain::everywhere        ? volume0
+	                         : domain == WaterDomain::outside ? volume
+	                                                          : 0)
+	        , presses(domain == WaterDomain::everywhere        ? 0
+	                          : domain == WaterDomain::outside ? volume
+	                                                           : -volume)
+	        , follows_(domain == WaterDomain::outside)
 	{
 	}
 	/// That resists.
@@ -133,18 +133,18 @@ template <int Dim> void addTo(const AssembledTerms<Dim>& sum, const WetPoint<Dim
 	}
 }
 
-/// What a pressure gains from a node of the periodic grid to its image near a place: all of a node's forces come from
-/// one side of the period.
+/// What a pressure gains from a node of the periodic grid to its image near a position: all of a node's forces come
+/// from one side of the period.
 template <int Dim>
 std::array<double, windowNodes<Dim>> gainBeyond(
-        const MovedPoint<Dim>& moved, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Vec<Dim>& place, const Vec<Dim>& fall)
+        const MovedPoint<Dim>& moved, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Vec<Dim>& domain, const Vec<Dim>& fall)
 {
 	std::array<double, windowNodes<Dim>> gain {};
 	for (int n = 0; n < moved.count; ++n) {
 		if (!moved.isThere(n)) continue;
 		const Vec<Dim> node = grid.nodePosition(Grid<Dim>::index(basis.nodes[moved.patch.node[n]]));
 		for (int a = 0; a < Dim; ++a)
-			if (fall[a] != 0) gain[n] += fall[a] * std::round((place[a] - node[a]) / (grid.cellSize * grid.period[a]));
+			if (fall[a] != 0) gain[n] += fall[a] * std::round((domain[a] - node[a]) / (grid.cellSize * grid.period[a]));
 	}
 	return gain;
 }
@@ -169,11 +169,11 @@ template <int Dim> const WaterPressure<Dim>& WaterForce<Dim>::pressureFor(const 
 	return when == When::before ? *water_.before : *water_.pressure;
 }
 
-/// Calls f(place in the basis, wet point) for all points at d. Returns the first point that has left the known places
-/// or has turned inside out; the others are done.
+/// Calls f(position in the basis, wet point) for all points at d. Returns the first point that has left the known
+/// positions or has turned inside out; the others are done.
 template <int Dim>
 template <class F>
-std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterPlace place, const Eigen::VectorXd& d, F&& f) const
+std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterDomain domain, const Eigen::VectorXd& d, F&& f) const
 {
 	std::atomic_int failed { std::numeric_limits<int>::max() };
 	const Vec<Dim>  fall  = (when == When::before ? water_.before : water_.pressure)->fall();
@@ -183,7 +183,7 @@ std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterPlace 
 		const bool   isWhole = moved.J > 0 && std::isfinite(moved.J);
 		const auto   around  = isWhole ? pressureFor(start, when).around(start.position + moved.displacement, start.halfSize) : std::nullopt;
 		if (around) {
-			WetPoint<Dim> wet(moved, *around, place, start.volume0, start.volume * moved.J);
+			WetPoint<Dim> wet(moved, *around, domain, start.volume0, start.volume * moved.J);
 			if (!falls) return f(i, wet);
 			const auto gain = gainBeyond(moved, basis_, grid_, start.position, fall);
 			wet.beyond      = gain.data();
@@ -200,14 +200,14 @@ template <int Dim> void WaterForce<Dim>::mark(NodeMatrix<Dim>& K) const { markPo
 
 template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
 {
-	return forWetPoints(When::now, water_.place, d, [&](int, const WetPoint<Dim>& wet) {
+	return forWetPoints(When::now, water_.domain, d, [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo(sum, wet, water_.factor);
 	});
 }
 
 template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force) const
 {
-	forWetPoints(When::before, water_.place, Eigen::VectorXd::Zero(force.size()), [&](int, const WetPoint<Dim>& wet) {
+	forWetPoints(When::before, water_.domain, Eigen::VectorXd::Zero(force.size()), [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo<Dim>({ force }, wet, water_.factorBefore);
 	});
 }
@@ -222,7 +222,7 @@ template <int Dim> double WaterForce<Dim>::fromOutside(const Eigen::VectorXd& d)
 
 template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const bool      wets = water_.place != WaterPlace::outside, fillsWalls = water_.place != WaterPlace::pores;
+	const bool      wets = water_.domain != WaterDomain::outside, fillsWalls = water_.domain != WaterDomain::pores;
 	Eigen::VectorXd onWalls = Eigen::VectorXd::Zero(d.size());
 	if (water_.wantsWork) {
 		Eigen::VectorXd twice = onWalls;
@@ -232,7 +232,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		water_.work = -twice.dot(d) / 2;
 	}
 	water_.porePressure.assign(start_.size(), 0);
-	forWetPoints(When::now, WaterPlace::outside, d, [&](int i, const WetPoint<Dim>& wet) {
+	forWetPoints(When::now, WaterDomain::outside, d, [&](int i, const WetPoint<Dim>& wet) {
 		if (wets) water_.porePressure[basis_.order[i]] = water_.factor * wet.p.value;
 		if (fillsWalls && !wet.isDry()) addTo<Dim>({ onWalls }, wet, -water_.factor);
 	});

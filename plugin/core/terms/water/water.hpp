@@ -8,18 +8,18 @@
 namespace gimpm {
 
 /// Where the pressure acts: in the pores only, on the surface only, or on both.
-enum class WaterPlace { everywhere, pores, outside };
+enum class WaterDomain { everywhere, pores, outside };
 
 /// What acts at the end of a step, and as it begins.
 template <int Dim> struct Water {
-	using Pressure            = std::shared_ptr<const WaterPressure<Dim>>;
-	WaterPlace          place = WaterPlace::everywhere;
+	using Pressure             = std::shared_ptr<const WaterPressure<Dim>>;
+	WaterDomain         domain = WaterDomain::everywhere;
 	Pressure            pressure {}, before {};
 	double              factor = 1, factorBefore = 1; ///< of the pressures
 	bool                wantsWork = false;            ///< which takes two passes over the points
 	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
 
-	/// Beside walls where the pressure jumps: number of the side that a place is on, from 1, 0 elsewhere; and by
+	/// Beside walls where the pressure jumps: number of the side that a position is on, from 1, 0 elsewhere; and by
 	/// side the pressure as it goes on from there. Null: as elsewhere.
 	std::function<int(const Vec<Dim>&)> sideOf {};
 	std::vector<Pressure>               beside {}, besideBefore {};
@@ -49,7 +49,7 @@ public:
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override
 	{
-		return water_.place == WaterPlace::everywhere || (water_.place == WaterPlace::outside && water_.pressure->fall().isZero(0));
+		return water_.domain == WaterDomain::everywhere || (water_.domain == WaterDomain::outside && water_.pressure->fall().isZero(0));
 	}
 	double fromOutside(const Eigen::VectorXd& d) const override;
 	void   commit(const Eigen::VectorXd& d) override;
@@ -62,7 +62,7 @@ private:
 	};
 	enum class When { before, now };
 	const WaterPressure<Dim>&                      pressureFor(const Start&, When) const;
-	template <class F> std::optional<PointFailure> forWetPoints(When, WaterPlace, const Eigen::VectorXd& d, F&&) const;
+	template <class F> std::optional<PointFailure> forWetPoints(When, WaterDomain, const Eigen::VectorXd& d, F&&) const;
 
 	Water<Dim>&            water_;
 	const CloudBasis<Dim>& basis_;

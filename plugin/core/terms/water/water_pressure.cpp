@@ -98,10 +98,10 @@ template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::aroun
 		Index<Dim> node, at;
 		for (int a = 0, rest = n; a < Dim; rest /= hats[a].count, ++a)
 			node[a] = rest % hats[a].count, at[a] = hats[a].first + node[a];
-		const Index<Dim> first = grid_.first(at);
-		const int        place = find(nodes_, Grid<Dim>::key(first));
-		if (place < 0) return std::nullopt;
-		addNode<Dim>(sum, values_[place] + sincePeriod(at, first), hats, node);
+		const Index<Dim> first    = grid_.first(at);
+		const int        position = find(nodes_, Grid<Dim>::key(first));
+		if (position < 0) return std::nullopt;
+		addNode<Dim>(sum, values_[position] + sincePeriod(at, first), hats, node);
 	}
 	return sum;
 }

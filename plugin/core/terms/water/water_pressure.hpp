@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pressure of water as a given function of the place.
+// Pressure of water as a given function of the position.
 #pragma once
 #include "core/grid/grid.hpp"
 #include <optional>
 
 namespace gimpm {
 
-/// Averaged over a box, with its derivatives by the place of the box.
+/// Averaged over a box, with its derivatives by the position of the box.
 template <int Dim> struct PressureAround {
 	double   value    = 0;                ///< [Pa]
 	Vec<Dim> gradient = Vec<Dim>::Zero(); ///< [Pa/m]

@@ -15,12 +15,13 @@ namespace yade {
 
 namespace {
 	// Records of one body, by the number of the contact point.
-	using RecordsOfBody = std::map<std::int64_t, ContactRecordOfPlace>;
+	using RecordsOfBody = std::map<std::int64_t, ContactPointRecord>;
 
 	std::map<int, RecordsOfBody> byBody(const vector<Real>& records)
 	{
 		std::map<int, RecordsOfBody> found;
-		forRecords(records, [&](const ContactRecordOfPlace& r) { found[r.body].emplace(r.number & ((std::int64_t(1) << gimpm::placeBits) - 1), r); });
+		forRecords(
+		        records, [&](const ContactPointRecord& r) { found[r.body].emplace(r.number & ((std::int64_t(1) << gimpm::contactPointBits) - 1), r); });
 		return found;
 	}
 
@@ -30,7 +31,7 @@ namespace {
 		constexpr Real               margin = 4; // cells
 		Eigen::AlignedBox<Real, Dim> box;
 		for (const auto& [number, r] : records)
-			box.extend(gimpm::Vec<Dim>(r.place.template head<Dim>()));
+			box.extend(gimpm::Vec<Dim>(r.position.template head<Dim>()));
 		return { box.min().array() - margin * cellSize, box.max().array() + margin * cellSize };
 	}
 
@@ -56,7 +57,7 @@ namespace {
 	}
 
 	// Stresses are those on the part of the surface that has soil in front of it.
-	void addFields(Picture& picture, const ContactRecordOfPlace* r, Real area)
+	void addFields(Picture& picture, const ContactPointRecord* r, Real area)
 	{
 		const bool touches = r && r->touches;
 		const Real wetted  = r ? area * r->presence : area;
@@ -81,12 +82,12 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 		if (!rigid) continue;
 		rigid->shape.axes = contact.turnOf(id).template topLeftCorner<Dim, Dim>();
 		const auto box    = extent<Dim>(records, grid.cellSize);
-		const bool isFine = records.rbegin()->first >= gimpm::firstFineNumber && gimpm::mayHaveFinePlaces(rigid->shape, grid.cellSize);
+		const bool isFine = records.rbegin()->first >= gimpm::firstFineNumber && gimpm::mayHaveFinePoints(rigid->shape, grid.cellSize);
 		const auto places
 		        = (isFine ? gimpm::finePointsAt<Dim> : gimpm::surfacePointsAt<Dim>)(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max());
 		for (const auto& point : places) {
 			const auto found        = records.find(point.number);
-			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.place)[0] : 1;
+			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.position)[0] : 1;
 			const bool isBeyondAxis = around <= 0, isOtherSide = rigid->shape.isTwoSided && found == records.end();
 			if (isBeyondAxis || isOtherSide) continue;
 			addCell<Dim>(picture, point, rigid->begin);

@@ -21,11 +21,11 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 	Places numbers;
 	for (size_t i = 0; i < members.size(); ++i)
 		numbers[members[i].body->id] = int(i);
-	forRecords(contact.records, [&](const ContactRecordOfPlace& r) {
+	forRecords(contact.records, [&](const ContactPointRecord& r) {
 		const auto body = numbers.find(r.body);
 		if (body == numbers.end()) return; // erased
 		const gimpm::Vec<Dim> tangentialForce = r.tangentialForce.template head<Dim>(), normal = r.normal.template head<Dim>(),
-		                      place = r.place.template head<Dim>();
+		                      place = r.position.template head<Dim>();
 		system->records.push_back(
 		        { body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.presence, r.travel, r.creep, friction, normal, place });
 	});
@@ -59,18 +59,18 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 	for (const auto& r : system->records) {
 		const Owner& owner = owners[system->bodies[r.body].owner];
 		MpmContact&  to    = *owner.contact;
-		ContactRecordOfPlace { r.number,
-			               members[r.body].body->id,
-			               r.gap,
-			               r.normalForce,
-			               r.presence,
-			               r.travel,
-			               r.creep,
-			               r.touches,
-			               r.slips,
-			               inSpace<Dim>(r.tangentialForce),
-			               inSpace<Dim>(r.normal),
-			               inSpace<Dim>(r.place) }
+		ContactPointRecord { r.number,
+			             members[r.body].body->id,
+			             r.gap,
+			             r.normalForce,
+			             r.presence,
+			             r.travel,
+			             r.creep,
+			             r.touches,
+			             r.slips,
+			             inSpace<Dim>(r.tangentialForce),
+			             inSpace<Dim>(r.normal),
+			             inSpace<Dim>(r.position) }
 		        .appendTo(to.records);
 		to.touching[placeOf(r)] += r.touches;
 		to.slipping[placeOf(r)] += r.slips;
@@ -82,7 +82,7 @@ template <int Dim> size_t Contacts<Dim>::placeOf(const gimpm::ContactRecord<Dim>
 {
 	int closest = system->bodies[r.body].owner;
 	for (const int node : members[r.body].nodes)
-		if ((system->owners[node] - r.place).squaredNorm() < (system->owners[closest] - r.place).squaredNorm()) closest = node;
+		if ((system->owners[node] - r.position).squaredNorm() < (system->owners[closest] - r.position).squaredNorm()) closest = node;
 	return owners[closest].place;
 }
 

@@ -43,11 +43,11 @@ namespace {
 		        body.thickness() / 2, " m resolve it.");
 	}
 
-	template <int Dim> vector<gimpm::PlaceOnFace<Dim>> placesOf(const Touched<Dim>& touched)
+	template <int Dim> vector<gimpm::FacePoint<Dim>> placesOf(const Touched<Dim>& touched)
 	{
-		vector<gimpm::PlaceOnFace<Dim>> found;
+		vector<gimpm::FacePoint<Dim>> found;
 		for (const auto* r : touched)
-			found.push_back({ r->place, r->normal });
+			found.push_back({ r->position, r->normal });
 		return found;
 	}
 

@@ -15,20 +15,20 @@ namespace {
 	int nearestVertex(const Beam& beam, const Vec2& place)
 	{
 		int nearest = 0;
-		for (int v = 1; v < int(beam.places.size()); ++v)
-			if ((beam.places[v] - place).norm() < (beam.places[nearest] - place).norm()) nearest = v;
+		for (int v = 1; v < int(beam.positions.size()); ++v)
+			if ((beam.positions[v] - place).norm() < (beam.positions[nearest] - place).norm()) nearest = v;
 		return nearest;
 	}
 
 	void goOn(Beam& beam, const MpmBeam& from)
 	{
-		beam.places        = inDimension<2>(from.vertices);
+		beam.positions     = inDimension<2>(from.vertices);
 		beam.turns         = from.rotations;
 		beam.length0       = from.lengths;
 		beam.radius0       = from.radii;
 		beam.slope0        = from.slopes;
 		beam.elongation    = from.elongations;
-		const size_t count = beam.places.size();
+		const size_t count = beam.positions.size();
 		for (const size_t side : { 0, 1 }) {
 			const auto part  = [&](const vector<Real>& all) { return vector<Real>(all.begin() + side * count, all.begin() + (side + 1) * count); };
 			beam.sides[side] = { part(from.normals), part(from.gaps), part(from.shears) };
@@ -41,7 +41,7 @@ namespace {
 		for (size_t i = 0; i < beam.length0.size(); ++i)
 			beam.bend.emplace_back(from.bends[2 * i], from.bends[2 * i + 1]);
 		beam.moments.assign(beam.length0.size(), Vec2::Zero());
-		beam.isHinge.assign(beam.places.size(), 0);
+		beam.isHinge.assign(beam.positions.size(), 0);
 	}
 
 	Beam coreBeam(const MpmBeam& from, const string& name, const gimpm::Grid<2>& grid)
@@ -90,7 +90,7 @@ namespace {
 	void scatterBeam(const Beam& beam, MpmBeam& to)
 	{
 		const size_t pieces = beam.length0.size();
-		to.vertices         = inSpace<2>(beam.places, placesOf(to.line).front()[2]);
+		to.vertices         = inSpace<2>(beam.positions, placesOf(to.line).front()[2]);
 		to.rotations        = beam.turns;
 		to.lengths          = beam.length0;
 		to.radii            = beam.radius0;
@@ -132,15 +132,15 @@ namespace {
 	{
 		gimpm::Reinforcement<2> bar = coreBar<2>(from, name, grid);
 		bar.head                    = gimpm::Reinforcement<2>::Head::joined;
-		bar.joint                   = nearestVertex(beam, bar.places.front());
-		const Real away = (bar.places.front() - beam.places[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
+		bar.joint                   = nearestVertex(beam, bar.positions.front());
+		const Real away = (bar.positions.front() - beam.positions[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
 		if (from.vertices.empty() && away > most)
 			throw std::invalid_argument(
 			        name + ".line begins at " + textOf(placesOf(from.line).front()) + ", " + textOf(away)
 			        + " m away from the nearest vertex of the beam: at most " + textOf(most) + " m, half a cell, are admitted.");
 		if (!from.vertices.empty()) return bar;
-		bar.places.front()  = beam.places[bar.joint];
-		bar.length0.front() = (bar.places[1] - bar.places[0]).norm();
+		bar.positions.front() = beam.positions[bar.joint];
+		bar.length0.front()   = (bar.positions[1] - bar.positions[0]).norm();
 		return bar;
 	}
 }
@@ -172,7 +172,7 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 	}
 	for (size_t i = 0; i < structures.size(); ++i) {
 		auto& pressures = sources[i].from->waterPressures; // MpmWater sets them
-		pressures.assign(structures[i].beam->places.size(), 0);
+		pressures.assign(structures[i].beam->positions.size(), 0);
 		structures[i].beam->waterPressure = &pressures;
 		joinStructure<2>(structures[i], model);
 	}
@@ -236,8 +236,8 @@ bool Beams::areBeside(const gimpm::Vec<2>& point, const gimpm::Vec<2>& half) con
 	return std::none_of(structures.begin(), structures.end(), [&](const auto& structure) {
 		const Beam&       beam = *structure.beam;
 		gimpm::Surface<2> line;
-		line.vertices = beam.places;
-		for (int i = 0; i + 1 < int(beam.places.size()); ++i)
+		line.vertices = beam.positions;
+		for (int i = 0; i + 1 < int(beam.positions.size()); ++i)
 			line.pieces.push_back({ i, i + 1 });
 		return beam.layer > 0 && line.isBetween(point, half);
 	});

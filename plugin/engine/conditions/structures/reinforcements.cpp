@@ -57,7 +57,7 @@ template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement& fro
 		bar.begin(verticesOf<Dim>(from, name, grid));
 		return bar;
 	}
-	bar.places    = inDimension<Dim>(from.vertices);
+	bar.positions = inDimension<Dim>(from.vertices);
 	bar.length0   = from.lengths;
 	bar.strain    = from.strains;
 	bar.force     = from.axialForces;
@@ -68,7 +68,7 @@ template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement& fro
 
 template <int Dim> void scatterBar(const gimpm::Reinforcement<Dim>& bar, MpmReinforcement& to)
 {
-	to.vertices    = inSpace<Dim>(bar.places, placesOf(to.line).front()[2]);
+	to.vertices    = inSpace<Dim>(bar.positions, placesOf(to.line).front()[2]);
 	to.lengths     = bar.length0;
 	to.strains     = bar.strain;
 	to.axialForces = bar.force;
@@ -96,7 +96,7 @@ template <int Dim> void joinStructure(gimpm::Structure<Dim>& structure, gimpm::M
 	const auto places = std::make_shared<std::vector<std::vector<Vec>>>();
 	model.inPlace.push_back({ [&structure, places](const gimpm::PointCloud<Dim>&, Real scale) {
 		                         structure.stiffen(scale);
-		                         *places = structure.places();
+		                         *places = structure.positions();
 	                         },
 	                          [&structure, places](const gimpm::PointCloud<Dim>&) { structure.putBack(*places); } });
 }

@@ -22,10 +22,10 @@ namespace {
 		return { axis, gravity[axis] > 0 ? -1 : 1 };
 	}
 
-	gimpm::WaterPlace placeOf(const MpmWater& water)
+	gimpm::WaterDomain placeOf(const MpmWater& water)
 	{
-		if (water.where == "pores") return gimpm::WaterPlace::pores;
-		return water.where == "outside" ? gimpm::WaterPlace::outside : gimpm::WaterPlace::everywhere;
+		if (water.where == "pores") return gimpm::WaterDomain::pores;
+		return water.where == "outside" ? gimpm::WaterDomain::outside : gimpm::WaterDomain::everywhere;
 	}
 }
 
@@ -62,13 +62,13 @@ template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surrou
 
 template <int Dim>
 auto Waters<Dim>::around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const
-        -> vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>>
+        -> vector<std::pair<gimpm::WaterDomain, std::optional<gimpm::PressureAround<Dim>>>>
 {
-	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> found;
+	vector<std::pair<gimpm::WaterDomain, std::optional<gimpm::PressureAround<Dim>>>> found;
 	for (const auto& water : waters) {
 		auto around = water.pressure->around(x, half);
 		if (around) around->value *= water.factor, around->gradient *= water.factor;
-		found.emplace_back(water.place, around);
+		found.emplace_back(water.domain, around);
 	}
 	return found;
 }
@@ -111,7 +111,7 @@ template <int Dim> void Waters<Dim>::pressOnWalls(Real from, Real to)
 				water.besideBefore[2 * w + side] = given.beside(walls[w], side, from);
 			}
 			if constexpr (Dim == 2) water.sideOf = SideOfWalls(walls, sources[i].cellSize);
-			for (size_t v = 0; v < jumps.size() && water.place != gimpm::WaterPlace::pores; ++v)
+			for (size_t v = 0; v < jumps.size() && water.domain != gimpm::WaterDomain::pores; ++v)
 				walls[w].beam->waterPressures[v] += water.factor * jumps[v];
 		}
 	}

@@ -26,7 +26,7 @@ public:
 	void pressOnWalls(Real from, Real to);
 
 	// Averaged over a box, at the end of that step, of each with its factor.
-	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const;
+	vector<std::pair<gimpm::WaterDomain, std::optional<gimpm::PressureAround<Dim>>>> around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const;
 
 private:
 	using Pressure = typename gimpm::Water<Dim>::Pressure;

@@ -55,19 +55,21 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 }
 
 /// What the points are sorted by. It is kept small: the basis functions are computed once the order is known.
-template <int Dim> struct Place {
+template <int Dim> struct PointOrder {
 	Key      order; // of the lowest cell
 	unsigned kind;  // span and cells
 	int      point;
 
-	Place() { } // all are set
-	Place(Key cell, int span, int cells, int point)
-	        : order(TileOrder<Dim>::of(cell)), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point) { }
+	PointOrder() { } // all are set
+	PointOrder(Key cell, int span, int cells, int point)
+	        : order(TileOrder<Dim>::of(cell)), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point)
+	{
+	}
 	int  span() const { return int(kind >> (1 << Dim)); }
 	int  cells() const { return int(kind & ((1 << (1 << Dim)) - 1)); }
-	bool samePatch(const Place& o) const { return order == o.order && kind == o.kind; }
+	bool samePatch(const PointOrder& o) const { return order == o.order && kind == o.kind; }
 	// Without branches, which could only guess here.
-	bool operator<(const Place& o) const { return whole() < o.whole(); }
+	bool operator<(const PointOrder& o) const { return whole() < o.whole(); }
 
 private:
 	unsigned __int128 whole() const { return (unsigned __int128)order << 64 | Key(kind) << 32 | unsigned(point); }
@@ -75,7 +77,7 @@ private:
 
 /// How far the domain reaches behind walls, as a length of its own axis: the part on the other side of a face than the
 /// centre.
-template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, const Index<Dim>& lowest, int centre)
+template <int Dim> double hiddenLength(const PointOrder<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, const Index<Dim>& lowest, int centre)
 {
 	double length = 0;
 	for (int a = 0; a < Dim; ++a)
@@ -96,7 +98,8 @@ template <int Dim> Vec<Dim> domainIn(const PointCloud<Dim>& cloud, int point, co
 	return grid.refinement ? Vec<Dim>(cloud.halfSize[point].cwiseMin(grid.size(level) / 2)) : cloud.halfSize[point];
 }
 
-template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
+template <int Dim>
+PointOrder<Dim> pointOrder(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
 {
 	const int        level = levelOf(cloud, point, grid, basis), layer = cloud.layerOf(point);
 	const double     h = grid.size(level);
@@ -111,8 +114,8 @@ template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, con
 		span |= 1 << a;
 		if (centre[a] > lowest[a]) centreBits |= 1 << a;
 	}
-	const Key        cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level, layer);
-	const Place<Dim> p(cell, span, reachableCells<Dim>(lowest, span, centreBits, boundary, level, layer), point);
+	const Key             cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level, layer);
+	const PointOrder<Dim> p(cell, span, reachableCells<Dim>(lowest, span, centreBits, boundary, level, layer), point);
 	hidden = std::max(hidden, hiddenLength<Dim>(p, x, halfSize, h, lowest, centreBits));
 	return p;
 }
