@@ -31,7 +31,7 @@ namespace {
 			for (const End& end : ends)
 				K.markUsed(end.node, 0);
 		}
-		std::optional<gimpm::PointFailure> add(const Eigen::VectorXd& d, const gimpm::AssembledTerms<Dim>& sum) const override
+		std::optional<gimpm::PointFailure> add(const Eigen::VectorXd& d, const gimpm::AssembledTerms<Dim>& sum) override
 		{
 			for (const End& end : ends) {
 				const Vec<Dim> f = force(end, d);
@@ -41,13 +41,13 @@ namespace {
 			}
 			return std::nullopt;
 		}
-		void addBefore(Eigen::VectorXd& force) const override
+		void addBefore(Eigen::VectorXd& force) override
 		{
 			for (const End& end : ends)
 				force.template segment<Dim>(Dim * end.node) += bed.stiffness * elongationOf(end);
 		}
-		double fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
-		void   restrain(const typename gimpm::Term<Dim>::Hold& hold) const override
+		double fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
+		void   restrain(const typename gimpm::Term<Dim>::Hold& hold) override
 		{
 			for (const End& end : ends)
 				for (int a = 0; a < Dim; ++a)

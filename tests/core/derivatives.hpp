@@ -54,7 +54,7 @@ inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd&
 /// must not vanish.
 template <int Dim> double tangentErrorOfLastTerm(const StepSystem<Dim>& system, const Grid<Dim>& grid, double step)
 {
-	const Term<Dim>&      term   = *system.terms.back();
+	Term<Dim>&            term   = *system.terms.back();
 	const Eigen::VectorXd d      = Random(3).vector(system.nodalSize(), 0.05);
 	const auto            forces = [&](const Eigen::VectorXd& at) {
                 Eigen::VectorXd f = Eigen::VectorXd::Zero(at.size());

@@ -351,7 +351,7 @@ private:
 template <int Dim>
 Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division)
 {
-	return restraintBy(basis, grid, boundary, terms, division, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
+	return restraintBy(basis, grid, boundary, terms, division, [](Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
 }
 
 template <int Dim>
@@ -359,8 +359,7 @@ Restraint restraintAt(
         const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms,
         const Division& division)
 {
-	return restraintBy(
-	        basis, grid, boundary, terms, division, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	return restraintBy(basis, grid, boundary, terms, division, [&](Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
 template <int Dim>

@@ -328,7 +328,7 @@ template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
 }
 
 /// Of loads on the structure, and of what holds its ends.
-template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd& d) const
+template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	if (!system_) return 0;
 	bool isLoaded = structure_.beam.has_value();
@@ -339,7 +339,7 @@ template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd
 
 /// A beam that is held at an end holds the soil around it, and one that parts the soil holds each side as if the other
 /// stood still.
-template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	if (!structure_.beam || !system_) return;
 	const Beam& beam = *structure_.beam;
@@ -361,7 +361,7 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 }
 
 /// Forces beyond what numbers can hold would make any residual look small.
-template <int Dim> Refusal StructureForce<Dim>::refusal(const Eigen::VectorXd& d) const
+template <int Dim> Refusal StructureForce<Dim>::refusal(const Eigen::VectorXd& d)
 {
 	if (!system_) return {};
 	if (!std::isfinite(fromOutside(d))) return { Failure::refused, structure_.name() + " has forces that are not finite numbers any more", "" };

@@ -19,9 +19,9 @@ public:
 	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
 	void                        commitCoupled(const State&) override;
 	std::string                 obstacle() const override { return obstacle_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
-	void                        restrain(const typename Term<Dim>::Hold&) const override;
-	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) override;
+	void                        restrain(const typename Term<Dim>::Hold&) override;
+	Refusal                     refusal(const Eigen::VectorXd& d) override;
 
 private:
 	std::vector<Vec<Dim>>     positions() const;

@@ -57,7 +57,7 @@ public:
 	virtual void commitCoupled(const State&) { }
 
 	void                        mark(NodeMatrix<Dim>&) const override { }
-	std::optional<PointFailure> add(const Eigen::VectorXd&, const AssembledTerms<Dim>&) const final { return std::nullopt; }
+	std::optional<PointFailure> add(const Eigen::VectorXd&, const AssembledTerms<Dim>&) final { return std::nullopt; }
 };
 
 /// Makes a term for a step, from how things are when it begins; what the context refers to lasts as long as the term.

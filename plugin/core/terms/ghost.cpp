@@ -199,7 +199,7 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 	}
 }
 
-template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	const Eigen::VectorXd before = sum.absoluteContributions ? sum.force : Eigen::VectorXd();
 	if (from_.size() > 0) addGhostForce<Dim>(faces_, h_, d - from_, sum.force);

@@ -70,7 +70,7 @@ public:
 	GhostForce(const std::vector<GhostFace<Dim>>& faces, double h, const Eigen::VectorXd& from) : faces_(faces), h_(h), from_(from) { }
 
 	void                        mark(NodeMatrix<Dim>& K) const override { markGhostPattern(faces_, K); }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) override;
 
 private:
 	const std::vector<GhostFace<Dim>>& faces_;

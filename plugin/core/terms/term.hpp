@@ -59,10 +59,10 @@ public:
 	virtual void mark(NodeMatrix<Dim>&) const = 0;
 
 	/// Adds force, stiffness and absolute contributions at d. After a failure the sums are of no use.
-	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const = 0;
+	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) = 0;
 
 	/// Adds its force as it was when the step began, whatever moves or grows in the step.
-	virtual void addBefore(Eigen::VectorXd& force) const { add(Eigen::VectorXd::Zero(force.size()), { force }); }
+	virtual void addBefore(Eigen::VectorXd& force) { add(Eigen::VectorXd::Zero(force.size()), { force }); }
 
 	/// Whether what it adds to K is symmetric.
 	virtual bool isSymmetric() const { return true; }
@@ -72,18 +72,18 @@ public:
 
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared
 	/// with; 0 for forces within the body.
-	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
+	virtual double fromOutside(const Eigen::VectorXd&) { return 0; }
 
 	/// Calls hold(node, direction, position) for what keeps the body from moving there, however softly; the
 	/// position is given from the node on [cells].
 	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& position)>;
-	virtual void restrain(const Hold&) const { }
+	virtual void restrain(const Hold&) { }
 
 	/// The same for what still keeps it at d, as friction does until it slips.
-	virtual void restrainAt(const Eigen::VectorXd&, const Hold& hold) const { restrain(hold); }
+	virtual void restrainAt(const Eigen::VectorXd&, const Hold& hold) { restrain(hold); }
 
 	/// Why equilibrium with these displacements cannot be accepted.
-	virtual Refusal refusal(const Eigen::VectorXd&) const { return {}; }
+	virtual Refusal refusal(const Eigen::VectorXd&) { return {}; }
 
 	/// What the length of the step has left out of them.
 	virtual LocalError localError(const Eigen::VectorXd&) const { return {}; }
@@ -93,7 +93,7 @@ public:
 
 protected:
 	/// Of all forces that it adds at d [N], for a term whose forces come from outside.
-	double sizeOfForce(const Eigen::VectorXd& d) const
+	double sizeOfForce(const Eigen::VectorXd& d)
 	{
 		Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
 		add(d, { force });

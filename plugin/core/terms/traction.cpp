@@ -149,7 +149,7 @@ template <int Dim> void Traction<Dim>::addStiffness(const Positions& positions, 
 	}
 }
 
-template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	const Positions positions = positionsAt(d), forces = forcesAt(positions);
 	for (std::size_t v = 0; v < forces.size(); ++v)
@@ -158,7 +158,7 @@ template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::V
 	return std::nullopt;
 }
 
-template <int Dim> void Traction<Dim>::addBefore(Eigen::VectorXd& force) const
+template <int Dim> void Traction<Dim>::addBefore(Eigen::VectorXd& force)
 {
 	if (!obstacle_.empty()) return;
 	const Positions forces = forcesAt(load_.surface.vertices, load_.pressureBefore, load_.tractionBefore);

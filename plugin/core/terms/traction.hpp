@@ -38,10 +38,10 @@ public:
 	Traction(SurfaceLoad<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
-	void                        addBefore(Eigen::VectorXd& force) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
+	void                        addBefore(Eigen::VectorXd& force) override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
+	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
 	std::string                 obstacle() const override { return obstacle_; }
 	void                        commit(const Eigen::VectorXd& d) override;
 

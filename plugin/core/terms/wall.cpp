@@ -64,7 +64,7 @@ template <int Dim> void WallForce<Dim>::mark(NodeMatrix<Dim>& K) const
 		markAttached(piece.at, piece.at, K);
 }
 
-template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	for (const HeldPiece& piece : heldPieces_) {
 		addAttachedForce<Dim>(piece.at, piece.area * tractionOn(piece, d), sum);
@@ -73,7 +73,7 @@ template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::
 	return std::nullopt;
 }
 
-template <int Dim> void WallForce<Dim>::addBefore(Eigen::VectorXd& force) const
+template <int Dim> void WallForce<Dim>::addBefore(Eigen::VectorXd& force)
 {
 	for (const HeldPiece& piece : heldPieces_)
 		addAttachedForce<Dim>(piece.at, piece.area * wall_.tractions[piece.piece], { force });
@@ -85,7 +85,7 @@ template <int Dim> std::string WallForce<Dim>::obstacle() const
 	return "a wall moves, but none of it is where the grid holds material";
 }
 
-template <int Dim> void WallForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void WallForce<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	for (const HeldPiece& piece : heldPieces_)
 		for (int a = 0; a < Dim; ++a)

@@ -3,6 +3,7 @@
 // Conditions on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
+#include "core/terms/step_kind.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include <array>
 #include <map>

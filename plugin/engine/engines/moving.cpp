@@ -83,7 +83,7 @@ template <int Dim> StepTime Moving<Dim>::begin(Job<Dim>& job, Real from, Real to
 	if (engine.isExplicit()) requireStable<Dim>(engine, job, to - from);
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = to - from;
-	return { from, to, motion->scheme.atMiddle ? from + motion->duration / 2 : to, energyComeIn() };
+	return { from, to, motion->scheme.atMiddle ? from + motion->duration / 2 : to, gimpm::StepKind::dynamic, energyComeIn() };
 }
 
 template <int Dim> void Moving<Dim>::weigh(gimpm::Load<Dim>& load) const

@@ -209,7 +209,7 @@ namespace {
 			const Vec<Dim> place     = Vec<Dim>::Constant(0.7) + 1.8 * Vec<Dim>::Unit(1);
 			auto&          body      = kind == RigidKind::sheet ? scene.addSheet(1.5, true) : scene.add(kind, place);
 			body.frictionCoefficient = 0.5;
-			scene.contacts.energy    = 0; // gaps stay as they are
+			scene.contacts.kind      = StepKind::dynamic; // gaps stay as they are
 			scene.go([&](const Vec<Dim>& x) { return Vec<Dim>(0.002 * Vec<Dim>::LinSpaced(1, 2) + 0.04 * Vec<Dim>::Unit(1) - 0.01 * x); });
 			const auto remembered = scene.contacts.records;
 			scene.go([](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Zero()); });
@@ -244,8 +244,8 @@ namespace {
 		Random        random(7);
 		for (int run = 0; run < (Dim == 2 ? 20 : 4); ++run) {
 			Scene<Dim> scene(0.5);
-			scene.contacts.energy = 0;
-			auto& body            = scene.add(RigidKind::block, Vec<Dim>::Constant(1.5) + Vec<Dim>::Unit(1) * 0.1);
+			scene.contacts.kind = StepKind::dynamic;
+			auto& body          = scene.add(RigidKind::block, Vec<Dim>::Constant(1.5) + Vec<Dim>::Unit(1) * 0.1);
 			body.begin.rotation = body.end.rotation = turn<Dim>(random.in(-0.5, 0.5));
 			double taken = 0, most = 0;
 			for (int step = 0; step < 20; ++step) {

@@ -144,7 +144,7 @@ namespace {
 		for (const bool isFree : { false, true })
 			for (const RigidKind kind : kinds) {
 				Small<Dim> scene(kind, 0.3);
-				scene.contacts.energy = 0; // a time step, which asks for the forces of before
+				scene.contacts.kind = StepKind::dynamic; // a time step, which asks for the forces of before
 				(isFree ? scene.letGo(0) : scene.press()).expectWide();
 				Eigen::VectorXd f, before;
 				for (int step = 0; step < 5; ++step) {

@@ -37,7 +37,7 @@ namespace {
 			for (const auto& end : ends_)
 				K.markUsed(end.node, itself);
 		}
-		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override
+		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) override
 		{
 			for (const auto& end : ends_) {
 				const Vec<Dim> f = force(end, d);
@@ -48,14 +48,14 @@ namespace {
 			return std::nullopt;
 		}
 		bool   isSymmetric() const override { return springs_.stiffness == springs_.stiffness.transpose(); }
-		double fromOutside(const Eigen::VectorXd& d) const override
+		double fromOutside(const Eigen::VectorXd& d) override
 		{
 			double squares = 0;
 			for (const auto& end : ends_)
 				squares += force(end, d).squaredNorm();
 			return std::sqrt(squares);
 		}
-		void restrain(const typename Term<Dim>::Hold& hold) const override
+		void restrain(const typename Term<Dim>::Hold& hold) override
 		{
 			for (const auto& end : ends_)
 				for (int a = 0; a < Dim; ++a)
@@ -194,7 +194,7 @@ namespace {
 	public:
 		BrittleSprings(Springs<Dim>& springs, const CloudBasis<Dim>& basis, double strength) : SpringForce<Dim>(springs, basis), strength_(strength) { }
 
-		Refusal refusal(const Eigen::VectorXd& d) const override
+		Refusal refusal(const Eigen::VectorXd& d) override
 		{
 			if (this->fromOutside(d) <= strength_) return {};
 			return { Failure::refused, "springs would break", "Stronger springs would bear it." };

@@ -29,7 +29,7 @@ namespace {
 			for (const auto& p : pairs_)
 				K.markUsed(p.b, -p.code);
 		}
-		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override
+		std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) override
 		{
 			for (const auto& [a, b, code] : pairs_) {
 				const Vec<Dim> da = d.template segment<Dim>(Dim * a), db = d.template segment<Dim>(Dim * b);

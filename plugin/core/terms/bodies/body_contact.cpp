@@ -254,7 +254,7 @@ template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool 
 }
 
 /// Each as if the other one stood still.
-template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);
@@ -262,7 +262,7 @@ template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hol
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
+template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold)
 {
 	for (const Touching& touching : look(d).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);

@@ -4,6 +4,7 @@
 #include "core/terms/bodies/body_pair.hpp"
 #include "core/terms/contact/facets.hpp"
 #include "core/terms/coupled_term.hpp"
+#include "core/terms/step_kind.hpp"
 #include <functional>
 
 namespace gimpm {
@@ -64,10 +65,9 @@ template <int Dim> struct BodyContacts {
 	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
 	/// With which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp); in explicit ones
 	/// what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
-	double weight = 1;
-	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
-	/// contact gives.
-	double                  energy = std::numeric_limits<double>::infinity();
+	double                  weight = 1;
+	StepKind                kind   = StepKind::quasiStatic;
+	double                  energy = 0;  ///< that has come into the system before this time step [J]
 	double                  given  = 0;  ///< work in that step beyond what contact had stored [J]
 	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
 };
@@ -86,9 +86,9 @@ public:
 	bool                        isSymmetric() const override { return !isExact_; }
 	bool                        makeExact() override;
 	std::string                 obstacle() const override { return obstacle_; }
-	void                        restrain(const typename Term<Dim>::Hold&) const override;
-	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
-	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) override;
+	Refusal                     refusal(const Eigen::VectorXd& d) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The

@@ -43,7 +43,7 @@ template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) cons
 
 template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::VectorXd& d) const
 {
-	if (!std::isfinite(system_.energy)) return {};
+	if (system_.kind != StepKind::dynamic) return {};
 	const double found = given(d);
 	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // as the first step begins nothing has come in
 	return { Failure::gainsEnergy,
@@ -70,7 +70,7 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 	return sum;
 }
 
-template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) const
+template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d)
 {
 	const Looked& looked = look(d);
 	const char*   advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
@@ -108,7 +108,7 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 	for (const ContactPoint& contactPoint : contactPoints_)
 		area[contactPoint.meeting][facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]] += contactPoint.area;
 	system_.work  = work(d);
-	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
+	system_.given = system_.kind == StepKind::dynamic ? given(d) : 0;
 	for (const auto& [contactPoint, near, force, at] : looked.touching) {
 		auto&     meeting = system_.meetings[contactPoint.meeting];
 		const int whole   = facets_[meeting.slave].whole[contactPoint.piece];
@@ -141,8 +141,8 @@ template <int Dim> void BodyContact<Dim>::moveSurfaces(const Positions& now)
 	}
 }
 
-template Refusal BodyContact<2>::refusal(const Eigen::VectorXd&) const;
-template Refusal BodyContact<3>::refusal(const Eigen::VectorXd&) const;
+template Refusal BodyContact<2>::refusal(const Eigen::VectorXd&);
+template Refusal BodyContact<3>::refusal(const Eigen::VectorXd&);
 template void    BodyContact<2>::commit(const Eigen::VectorXd&);
 template void    BodyContact<3>::commit(const Eigen::VectorXd&);
 

@@ -35,7 +35,7 @@ template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, dou
 {
 	if (!mayHaveFinePoints(system.bodies[body].shape, cellSize)) return false;
 	const auto record = std::find_if(system.records.begin(), system.records.end(), [&](const auto& r) { return r.body == body; });
-	if (record == system.records.end()) return std::isfinite(system.energy);
+	if (record == system.records.end()) return system.kind == StepKind::dynamic;
 	return record->number % (std::int64_t(1) << contactPointBits) >= firstFineNumber;
 }
 
@@ -83,7 +83,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 	}
 	for (int body = 0; body < int(system.bodies.size()); ++body)
 		widen(body);
-	if (std::isfinite(system_.energy)) findLost();
+	if (system_.kind == StepKind::dynamic) findLost();
 	spreadPressure();
 	for (const ContactPoint& contactPoint : contactPoints_)
 		isSymmetric_ = isSymmetric_ && (contactPoint.law.frictionCoefficient == 0 || contactPoint.law.cap == 0);
@@ -173,7 +173,7 @@ template <int Dim> void Contact<Dim>::addContactPoints(int number, int layer)
 	// recall() does where it does: they get in on their way through the grid, be it with the body.
 	const auto moveOut = [&](ContactPoint& contactPoint) {
 		const auto* record = recordOf(contactPoint);
-		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || body.nodes > 0 || !record || !record->touches || record->gap >= 0)
+		if (inside.empty() || system_.kind == StepKind::dynamic || body.free >= 0 || body.nodes > 0 || !record || !record->touches || record->gap >= 0)
 			return;
 		const Vec<Dim> normal = body.begin.rotation * body.end.rotation.transpose() * contactPoint.normal;
 		double         lowest = contactPoint.gap;
@@ -254,7 +254,7 @@ template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const C
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
 	contactPoint.gap    = std::max(record.gap, -record.normalForce / contactPoint.law.normalStiffness);
-	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.creep / grid_.cellSize);
+	const double creeps = system_.kind == StepKind::dynamic ? 0 : std::min(0.1, record.creep / grid_.cellSize);
 	contactPoint.gap += creeps * std::min(0., seen - contactPoint.gap);
 }
 
@@ -265,7 +265,7 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const ContactPoint& cont
 	const Vec<Dim> u    = contactPoint.pressed.displacement(d);
 	const Moved    now  = moved(contactPoint);
 	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.tangentialForce };
-	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
+	if (body.shape.kind == RigidKind::ball && system_.kind != StepKind::dynamic) {
 		a.at = body.proximity(body.end, contactPoint.soil + u, 1);
 		a.at.gap += contactPoint.gap - contactPoint.away;
 	} else {
@@ -275,9 +275,9 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const ContactPoint& cont
 	return a;
 }
 
-template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
+template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f)
 {
-	settle(d);
+	solveRigidBodyMotion(d);
 	for (const ContactPoint& contactPoint : contactPoints_) {
 		const Approach<Dim> near = approach(contactPoint, d);
 		if (const auto touched = touch(contactPoint.law, near, tolerance_)) f(contactPoint, near, *touched);
@@ -290,7 +290,7 @@ template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 		markAttached<Dim>(contactPoint.pressed, contactPoint.pressed, K);
 }
 
-template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
 		addAttachedForce<Dim>(contactPoint.pressed, system_.weight * touched.force(), sum);
@@ -299,7 +299,7 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 	return std::nullopt;
 }
 
-template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
+template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force)
 {
 	const auto add = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) {
 		addAttachedForce<Dim>(at, r.normalForce * r.normal + r.tangentialForce, { force });
@@ -329,7 +329,7 @@ template <int Dim> void Contact<Dim>::findLost()
 
 /// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then
 /// slips or comes off is for the iterations to find.
-template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	const auto holds = [&](const ContactPoint& contactPoint) {
 		if (system_.bodies[contactPoint.body].free >= 0) return; // it yields
@@ -345,7 +345,7 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 	forTouching(none, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>&) { holds(contactPoint); });
 }
 
-template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
+template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold)
 {
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
 		if (system_.bodies[contactPoint.body].free >= 0) return;
@@ -362,9 +362,9 @@ constexpr double littleGap         = 1e-3;
 constexpr char   whereSoilBegins[] = "; the middle of that point lay on the body as the step began";
 
 /// The middle of a point that ends inside of a body, or on another side of it.
-template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
+template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d)
 {
-	settle(d);
+	solveRigidBodyMotion(d);
 	if (const std::string falls = unbalanced(); !falls.empty())
 		return {
 			Failure::refused, falls,
@@ -379,7 +379,7 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 }
 
 /// Soil farther from a body than it is looked for may move as far as that and more.
-template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
+template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d)
 {
 	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
 	most               = division_.largest(most);
@@ -412,7 +412,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 /// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap,
 /// it is never above zero. They follow the moduli of the soil from step to step: what they have stored is that of the
 /// stiffness that they have now, as no length of the step changes that.
-template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
+template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d)
 {
 	double sum = 0;
 	for (const ContactPoint& contactPoint : contactPoints_)
@@ -447,7 +447,7 @@ template <int Dim> void Contact<Dim>::turnContactPoints(const Eigen::VectorXd& d
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<ContactRecord<Dim>> records;
-	settle(d);
+	solveRigidBodyMotion(d);
 	for (const ContactPoint& contactPoint : contactPoints_) {
 		const Approach<Dim> near = approach(contactPoint, d);
 		const Vec<Dim>      u = contactPoint.pressed.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
@@ -457,14 +457,14 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;
-	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
+	system_.given = system_.kind == StepKind::dynamic ? given(d) : 0;
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
 		auto& r   = records[&contactPoint - contactPoints_.data()];
 		r.touches = true, r.slips = touched.slips, r.normalForce = touched.normalForce, r.tangentialForce = touched.tangentialForce;
 		system_.work += touched.force().dot(contactPoint.pressed.displacement(d));
 		addLoads(contactPoint, r.position, touched);
 	});
-	if (std::isfinite(system_.energy) && !isRing_) turnContactPoints(d);
+	if (system_.kind == StepKind::dynamic && !isRing_) turnContactPoints(d);
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);

@@ -9,6 +9,7 @@
 #include "core/terms/contact/contact_surface.hpp"
 #include "core/terms/contact/footprint.hpp"
 #include "core/terms/coupled_term.hpp"
+#include "core/terms/step_kind.hpp"
 
 namespace gimpm {
 
@@ -54,12 +55,11 @@ template <int Dim> struct ContactSystem {
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
 	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp)
-	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
-	/// contact gives.
-	double energy = std::numeric_limits<double>::infinity();
+	StepKind                        kind   = StepKind::quasiStatic;
+	double                          energy = 0; ///< that has come into the system before this time step [J]
 	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
-	double              given = 0;
-	const Contact<Dim>* acting {}; ///< the term of the step that is being made
+	double        given = 0;
+	Contact<Dim>* acting {}; ///< the term of the step that is being made
 	/// Those of the owners that move within the step as soil and loads make them; of the bodies that they own the
 	/// end of the step is a result.
 	std::vector<FreeBody<Dim>> free {};
@@ -85,20 +85,20 @@ public:
 	Contact(ContactSystem<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
-	void                        addBefore(Eigen::VectorXd& force) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
+	void                        addBefore(Eigen::VectorXd& force) override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
-	void                        restrain(const typename Term<Dim>::Hold&) const override;
-	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
-	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
+	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) override;
+	Refusal                     refusal(const Eigen::VectorXd& d) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 	/// What free bodies make of the derivative beside what add() adds: their motion follows that of the soil at all
 	/// contact points that they touch.
 	void markFree(Couplings&) const;
-	void addFree(const Eigen::VectorXd& d, Couplings&) const;
+	void addFree(const Eigen::VectorXd& d, Couplings&);
 
 private:
 	/// A material point near a body, whichever process has it. Numbers only.
@@ -141,9 +141,9 @@ private:
 	auto                                nearTo(int body) const; // first and last in near_
 	const ContactRecord<Dim>*           recordOf(const ContactPoint&) const;
 	Approach<Dim>                       approach(const ContactPoint&, const Eigen::VectorXd& d) const;
-	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(contact point, approach, touch)
-	std::string                         entered(const Eigen::VectorXd& d) const;
-	double                              given(const Eigen::VectorXd& d) const;
+	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f); // f(contact point, approach, touch)
+	std::string                         entered(const Eigen::VectorXd& d);
+	double                              given(const Eigen::VectorXd& d);
 	void                                addLoads(const ContactPoint&, const Vec<Dim>& position, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const ContactPoint&, const Touch<Dim>&) const;
 	void                                findLost();
@@ -158,15 +158,15 @@ private:
 		Vec<Dim> carried, normal, tangentialForce;
 	};
 	Moved                            moved(const ContactPoint&) const;
-	void                             settle(const Eigen::VectorXd& d) const;
-	void                             put(int free, const typename FreeBody<Dim>::Vector& motion) const;
+	void                             solveRigidBodyMotion(const Eigen::VectorXd& d);
+	void                             moveBodies(int free, const typename FreeBody<Dim>::Vector& motion);
 	std::vector<const ContactPoint*> contactPointsOfFree(int free) const;
 	FreeContactPoint<Dim>            seen(const ContactPoint&, const Vec<Dim>& owner, const Eigen::VectorXd& d) const;
 	double                           sizeOfFree(int free) const;
 	std::string                      unbalanced() const;
 
 	ContactSystem<Dim>&       system_;
-	mutable Eigen::VectorXd   settledAt_; ///< where free bodies are in balance, if there are some
+	Eigen::VectorXd           solvedAt_;  ///< where free bodies are in balance, if there are some
 	double                    tolerance_; // of a gap that counts as touching [m]
 	bool                      isRing_, isSymmetric_ = true;
 	std::vector<Near>         near_;          // by body

@@ -217,7 +217,8 @@ public:
 } // namespace
 
 template <int Dim>
-bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
+bool solveRigidBodyMotion(
+        FreeBody<Dim>& body, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
 {
 	Search<Dim> search(body, size, look);
 	for (int iteration = 0; iteration < most && !search.isDone() && search.next(); ++iteration) { }
@@ -230,8 +231,8 @@ bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<Fr
 
 template struct Lever<2>;
 template struct Lever<3>;
-template bool                settle(FreeBody<2>&, double, const std::function<std::vector<FreeContactPoint<2>>(const FreeBody<2>::Vector&)>&);
-template bool                settle(FreeBody<3>&, double, const std::function<std::vector<FreeContactPoint<3>>(const FreeBody<3>::Vector&)>&);
+template bool                solveRigidBodyMotion(FreeBody<2>&, double, const std::function<std::vector<FreeContactPoint<2>>(const FreeBody<2>::Vector&)>&);
+template bool                solveRigidBodyMotion(FreeBody<3>&, double, const std::function<std::vector<FreeContactPoint<3>>(const FreeBody<3>::Vector&)>&);
 template FreeBody<2>::Matrix compliance(const FreeBody<2>&, double, const std::vector<FreeContactPoint<2>>&);
 template FreeBody<3>::Matrix compliance(const FreeBody<3>&, double, const std::vector<FreeContactPoint<3>>&);
 

@@ -69,7 +69,7 @@ template <int Dim> struct Lever {
 /// Finds the motion of the body; `look` puts the bodies at a motion and tells the contact points, all of them. False:
 /// there is no equilibrium that could be found, and the motion is the best one that was.
 template <int Dim>
-bool settle(FreeBody<Dim>&, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look);
+bool solveRigidBodyMotion(FreeBody<Dim>&, double size, const std::function<std::vector<FreeContactPoint<Dim>>(const typename FreeBody<Dim>::Vector&)>& look);
 
 /// The inverse of the derivative of what is out of balance by the motion, zero for what is given; `size` of the body
 /// makes turns comparable with displacements [m]. What nothing resists does not move.

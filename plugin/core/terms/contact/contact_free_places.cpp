@@ -28,7 +28,7 @@ template <int Dim> typename Contact<Dim>::Moved Contact<Dim>::moved(const Contac
 }
 
 /// Puts all bodies of the owner where this motion brings them.
-template <int Dim> void Contact<Dim>::put(int number, const typename FreeBody<Dim>::Vector& motion) const
+template <int Dim> void Contact<Dim>::moveBodies(int number, const typename FreeBody<Dim>::Vector& motion)
 {
 	const auto&    free     = system_.free[number];
 	const Vec<Dim> position = free.position + motion.template head<Dim>();
@@ -68,22 +68,22 @@ template <int Dim> double Contact<Dim>::sizeOfFree(int number) const
 }
 
 /// At each iterate of the soil's displacements free bodies are in balance with it as it is there.
-template <int Dim> void Contact<Dim>::settle(const Eigen::VectorXd& d) const
+template <int Dim> void Contact<Dim>::solveRigidBodyMotion(const Eigen::VectorXd& d)
 {
-	if (system_.free.empty() || (settledAt_.size() == d.size() && settledAt_ == d)) return;
+	if (system_.free.empty() || (solvedAt_.size() == d.size() && solvedAt_ == d)) return;
 	for (int number = 0; number < int(system_.free.size()); ++number) {
 		const auto contactPoints = contactPointsOfFree(number);
 		auto&      free          = system_.free[number];
 		const auto look          = [&](const typename FreeBody<Dim>::Vector& motion) {
-                        put(number, motion);
+                        moveBodies(number, motion);
                         std::vector<FreeContactPoint<Dim>> found;
                         for (const ContactPoint* contactPoint : contactPoints)
                                 found.push_back(seen(*contactPoint, system_.owners[free.owner], d));
                         return found;
 		};
-		gimpm::settle<Dim>(free, sizeOfFree(number), look);
+		gimpm::solveRigidBodyMotion<Dim>(free, sizeOfFree(number), look);
 	}
-	settledAt_ = d;
+	solvedAt_ = d;
 }
 
 template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
@@ -103,10 +103,10 @@ template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
 /// A product of three small matrices for any two nodes: those of the motion by the soil at one, and of the forces at
 /// the
 /// other by the motion, with the compliance of the body between them.
-template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Couplings& K) const
+template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Couplings& K)
 {
 	constexpr int unknowns = FreeBody<Dim>::unknowns;
-	settle(d);
+	solveRigidBodyMotion(d);
 	for (int number = 0; number < int(system_.free.size()); ++number) {
 		const auto&                        free = system_.free[number];
 		std::vector<FreeContactPoint<Dim>> all;
@@ -143,12 +143,12 @@ template <int Dim> std::string Contact<Dim>::unbalanced() const
 
 template typename Contact<2>::Moved Contact<2>::moved(const ContactPoint&) const;
 template typename Contact<3>::Moved Contact<3>::moved(const ContactPoint&) const;
-template void                       Contact<2>::settle(const Eigen::VectorXd&) const;
-template void                       Contact<3>::settle(const Eigen::VectorXd&) const;
+template void                       Contact<2>::solveRigidBodyMotion(const Eigen::VectorXd&);
+template void                       Contact<3>::solveRigidBodyMotion(const Eigen::VectorXd&);
 template void                       Contact<2>::markFree(Couplings&) const;
 template void                       Contact<3>::markFree(Couplings&) const;
-template void                       Contact<2>::addFree(const Eigen::VectorXd&, Couplings&) const;
-template void                       Contact<3>::addFree(const Eigen::VectorXd&, Couplings&) const;
+template void                       Contact<2>::addFree(const Eigen::VectorXd&, Couplings&);
+template void                       Contact<3>::addFree(const Eigen::VectorXd&, Couplings&);
 template std::string                Contact<2>::unbalanced() const;
 template std::string                Contact<3>::unbalanced() const;
 

@@ -18,7 +18,7 @@ template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const ContactPoint& at, c
 template <int Dim> Vec<Dim> Contact<Dim>::pointOfForce(const ContactPoint& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
 {
 	const auto& body = system_.bodies[at.body];
-	if (body.shape.kind != RigidKind::ball || !std::isfinite(system_.energy)) return soil;
+	if (body.shape.kind != RigidKind::ball || system_.kind != StepKind::dynamic) return soil;
 	return body.end.position + (soil - body.end.position).dot(normal) * normal;
 }
 

@@ -141,7 +141,7 @@ template <int Dim> Vec<Dim> EdgeSprings<Dim>::forceAt(std::size_t v, const Vec<D
 	return edge_.stiffness[v] * (ground.displacement[v] - (edge_.surface.vertices[v] - edge_.surface.vertices0[v] + moved));
 }
 
-template <int Dim> std::optional<PointFailure> EdgeSprings<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> EdgeSprings<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	for (std::size_t i = 0; i < attached_.size(); ++i) {
 		addAttachedForce(attached_[i], forceAt(i, share() * attached_[i].displacement(d), edge_.now), sum);
@@ -150,13 +150,13 @@ template <int Dim> std::optional<PointFailure> EdgeSprings<Dim>::add(const Eigen
 	return std::nullopt;
 }
 
-template <int Dim> void EdgeSprings<Dim>::addBefore(Eigen::VectorXd& force) const
+template <int Dim> void EdgeSprings<Dim>::addBefore(Eigen::VectorXd& force)
 {
 	for (std::size_t i = 0; i < attached_.size() && obstacle_.empty(); ++i)
 		addAttachedForce<Dim>(attached_[i], forceAt(i, Vec<Dim>::Zero(), edge_.before), { force });
 }
 
-template <int Dim> void EdgeSprings<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void EdgeSprings<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	for (const auto& at : attached_)
 		for (int axis = 0; axis < Dim; ++axis)

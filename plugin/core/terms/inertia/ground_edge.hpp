@@ -64,11 +64,11 @@ public:
 	EdgeSprings(GroundEdge<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
-	void                        addBefore(Eigen::VectorXd& force) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
+	void                        addBefore(Eigen::VectorXd& force) override;
 	std::string                 obstacle() const override { return obstacle_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
-	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
+	void                        restrain(const typename Term<Dim>::Hold&) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:

@@ -216,7 +216,7 @@ template <int Dim> std::string Inertia<Dim>::obstacle() const
 	return {};
 }
 
-template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	const auto&           scheme = motion_.scheme;
 	const double          weight = 1 - scheme.alphaF, ofEnd = (1 - scheme.alphaM) / weight;
@@ -241,7 +241,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	return std::nullopt;
 }
 
-template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) const
+template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	Eigen::VectorXd force = nodal_ * accelerationAt(d);
 	for (Eigen::Index i = 0; i < force.size(); ++i)
@@ -280,7 +280,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::inertialPredictor() const
 	return contact.norm() > stopping.norm() ? prescribed_ : d;
 }
 
-template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold)
 {
 	for (int n = 0; n < mass_.nodes(); ++n)
 		for (int a = 0; a < Dim; ++a)

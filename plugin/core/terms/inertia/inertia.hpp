@@ -19,12 +19,12 @@ public:
 	Inertia(Motion<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>& K) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
-	void                        addBefore(Eigen::VectorXd&) const override { }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
+	void                        addBefore(Eigen::VectorXd&) override { }
 	bool                        isSymmetric() const override;
 	std::string                 obstacle() const override;
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
-	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) override;
+	void                        restrain(const typename Term<Dim>::Hold&) override;
 	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 

@@ -10,7 +10,7 @@ template <int Dim> class InternalForceAtMiddle : public InternalForce<Dim> {
 public:
 	using InternalForce<Dim>::InternalForce;
 
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) override
 	{
 		// So that half of the sum leaves to others what is theirs, to the last bit.
 		if (sum.K) sum.K->multiplyBy(2);

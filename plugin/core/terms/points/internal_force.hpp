@@ -86,8 +86,8 @@ public:
 	{
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const override { return add(d, sum, 1); }
-	void                        addBefore(Eigen::VectorXd& force) const override { add(Eigen::VectorXd::Zero(force.size()), { force }, 0); }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) override { return add(d, sum, 1); }
+	void                        addBefore(Eigen::VectorXd& force) override { add(Eigen::VectorXd::Zero(force.size()), { force }, 0); }
 	bool                        isSymmetric() const override { return points_.isSymmetric; }
 
 protected:

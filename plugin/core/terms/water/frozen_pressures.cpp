@@ -24,7 +24,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 		}
 }
 
-template <int Dim> std::optional<PointFailure> FrozenPressures<Dim>::add(const Eigen::VectorXd&, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> FrozenPressures<Dim>::add(const Eigen::VectorXd&, const AssembledTerms<Dim>& sum)
 {
 	sum.force += force_;
 	if (sum.absoluteContributions) *sum.absoluteContributions += absoluteContributions_;

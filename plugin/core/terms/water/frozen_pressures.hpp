@@ -12,7 +12,7 @@ public:
 	FrozenPressures(const std::vector<double>& ofOwnPoints, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override { }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
 
 private:
 	Eigen::VectorXd force_, absoluteContributions_;

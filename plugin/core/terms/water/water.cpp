@@ -198,21 +198,21 @@ std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterDomain
 
 template <int Dim> void WaterForce<Dim>::mark(NodeMatrix<Dim>& K) const { markPointPattern(basis_, K); }
 
-template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
+template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	return forWetPoints(When::now, water_.domain, d, [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo(sum, wet, water_.factor);
 	});
 }
 
-template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force) const
+template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force)
 {
 	forWetPoints(When::before, water_.domain, Eigen::VectorXd::Zero(force.size()), [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo<Dim>({ force }, wet, water_.factorBefore);
 	});
 }
 
-template <int Dim> double WaterForce<Dim>::fromOutside(const Eigen::VectorXd& d) const
+template <int Dim> double WaterForce<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
 	add(d, { force });

@@ -45,13 +45,13 @@ public:
 	WaterForce(Water<Dim>&, const StepContext<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const override;
-	void                        addBefore(Eigen::VectorXd& force) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) override;
+	void                        addBefore(Eigen::VectorXd& force) override;
 	bool                        isSymmetric() const override
 	{
 		return water_.domain == WaterDomain::everywhere || (water_.domain == WaterDomain::outside && water_.pressure->fall().isZero(0));
 	}
-	double fromOutside(const Eigen::VectorXd& d) const override;
+	double fromOutside(const Eigen::VectorXd& d) override;
 	void   commit(const Eigen::VectorXd& d) override;
 
 private:

@@ -171,7 +171,10 @@ template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motio
 	motion.bodies  = system.get();
 }
 
-template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) { system->energy = step.energy; }
+template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&)
+{
+	system->kind = step.kind, system->energy = step.energy;
+}
 
 template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
 {

@@ -260,8 +260,8 @@ template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Mode
 {
 	advanceTo(step.to);
 	advanceFree(step, model.grid.axisymmetric);
-	system->energy = step.energy;
-	load.motion    = step.to - step.from;
+	system->kind = step.kind, system->energy = step.energy;
+	load.motion = step.to - step.from;
 }
 
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)
