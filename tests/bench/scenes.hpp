@@ -31,12 +31,12 @@ template <int Dim> struct BenchScene {
 		cloud.defGrad[i].setIdentity();
 		cloud.material[i] = material;
 	}
-	HeldBox<Dim> wall(int axis, double place, bool above, std::initializer_list<int> fixed) const
+	ConstrainedBox<Dim> wall(int axis, double place, bool above, std::initializer_list<int> fixed) const
 	{
 		constexpr double inf = std::numeric_limits<double>::infinity();
 		Vec<Dim>         min = Vec<Dim>::Constant(-inf), max = Vec<Dim>::Constant(inf);
 		(above ? min : max)[axis] = place;
-		auto box                  = HeldBox<Dim>::from(model.grid, min, max);
+		auto box                  = ConstrainedBox<Dim>::from(model.grid, min, max);
 		for (const int a : fixed)
 			box.fixed[a] = true;
 		return box;
@@ -50,7 +50,7 @@ template <int Dim> BenchScene<Dim> slope(double h, int perAxis, int depth = 1)
 	s.model.grid.cellSize = h;
 	s.model.materials     = { { VonMises(1e6, 0.3, 15e3), 2400 }, { VonMises(1e6, 0.3, 7.5e3), 2400 } };
 	s.steps               = int(std::lround(40 / h));
-	std::vector<HeldBox<Dim>> walls { s.wall(0, 0, false, { 0 }), s.wall(0, 30, true, { 0 }), s.wall(1, 0, false, { 0, 1 }) };
+	std::vector<ConstrainedBox<Dim>> walls { s.wall(0, 0, false, { 0 }), s.wall(0, 30, true, { 0 }), s.wall(1, 0, false, { 0, 1 }) };
 	if constexpr (Dim == 3) walls.push_back(s.wall(2, 0, false, { 2 })), walls.push_back(s.wall(2, depth * h, true, { 2 }));
 	s.model.boundary = Boundary<Dim>(walls);
 

@@ -47,11 +47,11 @@ namespace {
 				force.template segment<Dim>(Dim * end.node) += bed.stiffness * elongationOf(end);
 		}
 		double fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
-		void   restrain(const typename gimpm::Term<Dim>::Hold& hold) override
+		void   restrain(const typename gimpm::Term<Dim>::Constrain& constrain) override
 		{
 			for (const End& end : ends)
 				for (int a = 0; a < Dim; ++a)
-					hold(end.node, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+					constrain(end.node, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 		}
 		void commit(const Eigen::VectorXd& d) override
 		{

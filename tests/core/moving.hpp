@@ -107,9 +107,9 @@ template <int Dim> struct Bar : Moving<Dim> {
 	Bar(double cells, TimeScheme scheme = {}, double amplitude = 1e-5)
 	        : Moving<Dim>(1, Hencky(young, 0), density, scheme), length(cells), speed(amplitude * wave)
 	{
-		const int                 points = int(std::lround(2 * cells));
-		const double              half   = cells / points / 2;
-		std::vector<HeldBox<Dim>> walls { wallBelow<Dim>(this->model.grid, 0, 0) };
+		const int                        points = int(std::lround(2 * cells));
+		const double                     half   = cells / points / 2;
+		std::vector<ConstrainedBox<Dim>> walls { wallBelow<Dim>(this->model.grid, 0, 0) };
 		for (int axis = 1; axis < Dim; ++axis)
 			walls.push_back(wallBelow<Dim>(this->model.grid, axis, 0)), walls.push_back(wallAbove<Dim>(this->model.grid, axis, 1));
 		this->model.boundary = Boundary<Dim>(walls);

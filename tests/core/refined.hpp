@@ -46,9 +46,10 @@ template <int Dim> Index<Dim> cornerSize() { return cellsOf<Dim>(4, 3, 3); }
 
 /// Prescribes displacement(position) at the nodes on the surface of a block of largest cells that are tied to no
 /// others.
-template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedLeaves(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
+template <int Dim, class Displacement>
+std::vector<ConstrainedBox<Dim>> prescribedLeaves(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
 {
-	std::vector<HeldBox<Dim>> boxes;
+	std::vector<ConstrainedBox<Dim>> boxes;
 	for (const auto& box : prescribedSurface<Dim>(grid, size * (1 << grid.refinement->largest()), displacement)) {
 		const int level = grid.refinement->largestAt(box.lower);
 		if (box.lower == box.lower.unaryExpr([&](int i) { return floorTo(i, level); })) boxes.push_back(box);

@@ -124,9 +124,10 @@ template <int Dim> PointCloud<Dim> block(const Grid<Dim>& grid, const Index<Dim>
 
 /// A box of nodes held in the directions named by letters out of "xyz".
 template <int Dim>
-HeldBox<Dim> held(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max, const std::string& fix, const Vec<Dim>& displacement = Vec<Dim>::Zero())
+ConstrainedBox<Dim> held(
+        const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max, const std::string& fix, const Vec<Dim>& displacement = Vec<Dim>::Zero())
 {
-	HeldBox<Dim> box = HeldBox<Dim>::from(grid, min, max);
+	ConstrainedBox<Dim> box = ConstrainedBox<Dim>::from(grid, min, max);
 	for (const char letter : fix)
 		box.fixed[letter - 'x'] = true;
 	box.displacement = displacement;
@@ -135,13 +136,13 @@ HeldBox<Dim> held(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& ma
 
 /// All nodes on one side of a plane held along its normal: a wall at x[axis] = place with everything below (or above)
 /// it behind it.
-template <int Dim> HeldBox<Dim> wallBelow(const Grid<Dim>& grid, int axis, double place)
+template <int Dim> ConstrainedBox<Dim> wallBelow(const Grid<Dim>& grid, int axis, double place)
 {
 	Vec<Dim> max = Vec<Dim>::Constant(infinity);
 	max[axis]    = place;
 	return held<Dim>(grid, Vec<Dim>::Constant(-infinity), max, std::string(1, "xyz"[axis]));
 }
-template <int Dim> HeldBox<Dim> wallAbove(const Grid<Dim>& grid, int axis, double place)
+template <int Dim> ConstrainedBox<Dim> wallAbove(const Grid<Dim>& grid, int axis, double place)
 {
 	Vec<Dim> min = Vec<Dim>::Constant(-infinity);
 	min[axis]    = place;
@@ -150,9 +151,9 @@ template <int Dim> HeldBox<Dim> wallAbove(const Grid<Dim>& grid, int axis, doubl
 
 /// Nodes held in all directions, each with its own displacement(position), given as one box a node.
 template <int Dim, class Displacement>
-void prescribe(std::vector<HeldBox<Dim>>& boxes, const Grid<Dim>& grid, const Index<Dim>& node, Displacement&& displacement)
+void prescribe(std::vector<ConstrainedBox<Dim>>& boxes, const Grid<Dim>& grid, const Index<Dim>& node, Displacement&& displacement)
 {
-	HeldBox<Dim> box { node, node };
+	ConstrainedBox<Dim> box { node, node };
 	box.displacement = displacement(grid.nodePosition(node));
 	box.fixed.fill(true);
 	boxes.push_back(box);
@@ -160,9 +161,10 @@ void prescribe(std::vector<HeldBox<Dim>>& boxes, const Grid<Dim>& grid, const In
 
 /// Prescribes displacement(position) at the nodes on the surface of a box of size cells from node 0 (of which inner
 /// nodes stay free).
-template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedSurface(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
+template <int Dim, class Displacement>
+std::vector<ConstrainedBox<Dim>> prescribedSurface(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
 {
-	std::vector<HeldBox<Dim>> boxes;
+	std::vector<ConstrainedBox<Dim>> boxes;
 	forIndices<Dim>(Index<Dim>::Zero(), size + Index<Dim>::Ones(), [&](const Index<Dim>& node) {
 		if ((node.array() == 0).any() || (node.array() == size.array()).any()) prescribe<Dim>(boxes, grid, node, displacement);
 	});
@@ -223,7 +225,7 @@ template <int Dim> struct Column {
 		model.materials        = { { Hencky(young, 0), weight / 10 } };
 		model.ghost            = ghost;
 		model.newton.tolerance = 1e-9;
-		std::vector<HeldBox<Dim>> walls { wallBelow<Dim>(model.grid, 1, 0) };
+		std::vector<ConstrainedBox<Dim>> walls { wallBelow<Dim>(model.grid, 1, 0) };
 		for (int axis = 0; axis < Dim; ++axis)
 			if (axis != 1) walls.push_back(wallBelow<Dim>(model.grid, axis, 0)), walls.push_back(wallAbove<Dim>(model.grid, axis, h));
 		model.boundary = Boundary<Dim>(walls);

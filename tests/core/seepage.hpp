@@ -183,13 +183,13 @@ template <int Dim> struct Body {
 	std::vector<Vec<Dim>>   nodes; // nodes of the last step that was accepted
 	Eigen::VectorXd         value, flow;
 
-	explicit Body(double cut, const std::vector<HeldBox<Dim>>& more = {})
+	explicit Body(double cut, const std::vector<ConstrainedBox<Dim>>& more = {})
 	{
 		model.grid.cellSize    = h;
 		model.grid.origin      = Vec<Dim>::Constant(0.2);
 		model.materials        = { { Hencky(young, 0), 1 } };
 		model.newton.tolerance = 1e-10;
-		std::vector<HeldBox<Dim>> walls;
+		std::vector<ConstrainedBox<Dim>> walls;
 		for (int a = 0; a < Dim; ++a)
 			walls.push_back(wallBelow<Dim>(model.grid, a, model.grid.origin[a]));
 		walls.insert(walls.end(), more.begin(), more.end());
@@ -203,7 +203,7 @@ template <int Dim> struct Body {
 			           } } };
 		model.coupledTerms = { [this](const StepContext<Dim>& step, const State&) { return std::make_unique<Flow<Dim>>(medium, step); } };
 	}
-	static HeldBox<Dim> farEnd(const Model<Dim>& model, double displacement)
+	static ConstrainedBox<Dim> farEnd(const Model<Dim>& model, double displacement)
 	{
 		Vec<Dim> min = Vec<Dim>::Constant(-infinity);
 		min[0]       = model.grid.origin[0] + length;

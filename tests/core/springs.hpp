@@ -46,8 +46,8 @@ template <int Dim> struct Springs {
 		setSprings(K, grid, nodes, reach);
 		for (int n = 0; n < K.nodes(); ++n)
 			for (int a = 0; a < Dim; ++a) {
-				const bool isHeld = Grid<Dim>::index(nodes[n])[Dim - 1] == 0 || (n == K.nodes() - 3 && a == 0);
-				dofs.number.push_back(isHeld ? -1 : dofs.count++);
+				const bool isConstrained = Grid<Dim>::index(nodes[n])[Dim - 1] == 0 || (n == K.nodes() - 3 && a == 0);
+				dofs.number.push_back(isConstrained ? -1 : dofs.count++);
 			}
 	}
 	Springs(const Index<Dim>& size, int reach) : Springs(size, reach, [](const Index<Dim>&) { return false; }) { }

@@ -66,7 +66,7 @@ template <int Dim> struct TouchedSoil {
 	}
 	void rollers()
 	{
-		std::vector<HeldBox<Dim>> walls;
+		std::vector<ConstrainedBox<Dim>> walls;
 		for (int a = 0; a < Dim; ++a)
 			walls.push_back(wallBelow<Dim>(model.grid, a, 0));
 		model.boundary = Boundary<Dim>(walls);

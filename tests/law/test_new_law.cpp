@@ -32,8 +32,8 @@ namespace {
 		{
 			Vec<Dim> top = Vec<Dim>::Constant(-infinity), all = Vec<Dim>::Constant(infinity);
 			top[1] = 2;
-			std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 1, 0),
-				                          held<Dim>(model.grid, top, all, "y", -displacement * Vec<Dim>::Unit(1)) };
+			std::vector<ConstrainedBox<Dim>> boxes { wallBelow<Dim>(model.grid, 1, 0),
+				                                 held<Dim>(model.grid, top, all, "y", -displacement * Vec<Dim>::Unit(1)) };
 			for (int axis = 0; axis < Dim; ++axis)
 				if (axis != 1) boxes.push_back(wallBelow<Dim>(model.grid, axis, 0));
 			model.boundary = Boundary<Dim>(boxes);

@@ -19,39 +19,39 @@ template <class F> void forComponents(const DofMap& map, Eigen::VectorXd& all, F
 
 } // namespace
 
-void Constraints::reset(const DofMap& map, const Ties& ties)
+void Constraints::reset(const DofMap& map, const AffineConstraints& affineConstraints)
 {
 	prescribed = Eigen::VectorXd::Zero(map.size());
 	dofs.number.assign(map.size(), -1);
-	dofs.count = 0;
-	dofs.ties  = ties.empty() ? nullptr : &ties;
+	dofs.count             = 0;
+	dofs.affineConstraints = affineConstraints.empty() ? nullptr : &affineConstraints;
 }
 
 Constraints Constraints::ofDisplacements(const DofMap& map) const
 {
-	Constraints own { { { dofs.number.begin(), dofs.number.begin() + map.end(0) }, 0, dofs.ties }, map.displacements(prescribed) };
+	Constraints own { { { dofs.number.begin(), dofs.number.begin() + map.end(0) }, 0, dofs.affineConstraints }, map.displacements(prescribed) };
 	for (const int number : own.dofs.number)
 		own.dofs.count += number >= 0;
 	return own;
 }
 
-template <int Dim> void Constraints::spread(const DofMap& map, Eigen::VectorXd& values) const
+template <int Dim> void Constraints::distribute(const DofMap& map, Eigen::VectorXd& values) const
 {
-	if (!dofs.ties) return;
-	dofs.ties->template spread<Dim>(values); // of the first block
-	forComponents(map, values, [&](Eigen::VectorXd& component) { dofs.ties->template spread<1>(component); });
+	if (!dofs.affineConstraints) return;
+	dofs.affineConstraints->template distribute<Dim>(values); // of the first block
+	forComponents(map, values, [&](Eigen::VectorXd& component) { dofs.affineConstraints->template distribute<1>(component); });
 }
 
-template <int Dim> void Constraints::fold(const DofMap& map, Eigen::VectorXd& forces) const
+template <int Dim> void Constraints::condense(const DofMap& map, Eigen::VectorXd& forces) const
 {
-	if (!dofs.ties) return;
-	dofs.ties->template fold<Dim>(forces);
-	forComponents(map, forces, [&](Eigen::VectorXd& component) { dofs.ties->template fold<1>(component); });
+	if (!dofs.affineConstraints) return;
+	dofs.affineConstraints->template condense<Dim>(forces);
+	forComponents(map, forces, [&](Eigen::VectorXd& component) { dofs.affineConstraints->template condense<1>(component); });
 }
 
-template void Constraints::spread<2>(const DofMap&, Eigen::VectorXd&) const;
-template void Constraints::spread<3>(const DofMap&, Eigen::VectorXd&) const;
-template void Constraints::fold<2>(const DofMap&, Eigen::VectorXd&) const;
-template void Constraints::fold<3>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::distribute<2>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::distribute<3>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::condense<2>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::condense<3>(const DofMap&, Eigen::VectorXd&) const;
 
 } // namespace gimpm

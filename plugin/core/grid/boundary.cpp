@@ -4,10 +4,10 @@
 
 namespace gimpm {
 
-template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max)
+template <int Dim> ConstrainedBox<Dim> ConstrainedBox<Dim>::from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max)
 {
 	constexpr double limit = Grid<Dim>::endOfKeys;
-	HeldBox          box;
+	ConstrainedBox   box;
 	for (int a = 0; a < Dim; ++a) {
 		const double low = (min[a] - grid.origin[a]) / grid.cellSize, high = (max[a] - grid.origin[a]) / grid.cellSize;
 		box.lower[a] = int(std::clamp(std::ceil(low - grid.onLine(min[a], a)), -limit, limit));
@@ -20,9 +20,9 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const 
 	return box;
 }
 
-template <int Dim> HeldBox<Dim> HeldBox<Dim>::ofAxis(const Grid<Dim>& grid)
+template <int Dim> ConstrainedBox<Dim> ConstrainedBox<Dim>::ofAxis(const Grid<Dim>& grid)
 {
-	HeldBox box;
+	ConstrainedBox box;
 	box.upper.setConstant(Grid<Dim>::endOfKeys);
 	box.lower    = -box.upper;
 	box.lower[0] = box.upper[0] = grid.axisNode();
@@ -33,7 +33,7 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::ofAxis(const Grid<Dim>& grid)
 	return box;
 }
 
-template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
+template <int Dim> bool ConstrainedBox<Dim>::meets(const ConstrainedBox& other) const
 {
 	if (!isOf(other.layer) && !other.isOf(layer)) return false;
 	for (int a = 0; a < Dim; ++a) {
@@ -44,23 +44,23 @@ template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
 	return true;
 }
 
-template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& node, int axis, int layer) const
+template <int Dim> const ConstrainedBox<Dim>* Boundary<Dim>::constrainingBox(const Index<Dim>& node, int axis, int layer) const
 {
 	for (auto b = boxes_.rbegin(); b != boxes_.rend(); ++b)
-		if (b->holds(node, axis) && b->isOf(layer)) return &*b;
+		if (b->constrains(node, axis) && b->isOf(layer)) return &*b;
 	return nullptr;
 }
 
-template <int Dim> const HeldBox<Dim>* Boundary<Dim>::opening(const Index<Dim>& node) const
+template <int Dim> const ConstrainedBox<Dim>* Boundary<Dim>::opening(const Index<Dim>& node) const
 {
-	const auto found = std::find_if(open_.rbegin(), open_.rend(), [&](const HeldBox<Dim>& b) { return b.contains(node); });
+	const auto found = std::find_if(open_.rbegin(), open_.rend(), [&](const ConstrainedBox<Dim>& b) { return b.contains(node); });
 	return found == open_.rend() ? nullptr : &*found;
 }
 
 template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis, int level, int layer) const
 {
-	const auto covers         = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
-	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && covers(b); })
+	const auto covers         = [&](const ConstrainedBox<Dim>& b) { return b.covers(cell[axis], axis); };
+	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const ConstrainedBox<Dim>& b) { return b.fixed[axis] && covers(b); })
 	        || std::any_of(open_.begin(), open_.end(), covers);
 	if (!planeIsTouched) return false;
 	for (int corner = 0; corner < 1 << Dim; ++corner) {
@@ -68,7 +68,7 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 		Index<Dim> node = cell;
 		for (int a = 0; a < Dim; ++a)
 			node[a] += (corner >> a & 1) << level;
-		if (!holder(node, axis, layer) && !opening(node)) return false;
+		if (!constrainingBox(node, axis, layer) && !opening(node)) return false;
 	}
 	return filled_.empty() || !goesAlong(cell, axis, level, layer);
 }
@@ -81,7 +81,7 @@ template <int Dim> std::vector<Key> Boundary<Dim>::besideMoving(const std::vecto
 			Index<Dim> node = Grid<Dim>::index(cell);
 			for (int a = 0; a < Dim; ++a)
 				node[a] += (corner >> a & 1) << Grid<Dim>::level(cell);
-			const auto holds = [&](const HeldBox<Dim>& b) { return b.moves() && b.isOf(Grid<Dim>::layer(cell)) && b.contains(node); };
+			const auto holds = [&](const ConstrainedBox<Dim>& b) { return b.moves() && b.isOf(Grid<Dim>::layer(cell)) && b.contains(node); };
 			if (std::none_of(boxes_.begin(), boxes_.end(), holds)) continue;
 			beside.push_back(cell);
 			break;
@@ -94,15 +94,15 @@ template <int Dim> bool Boundary<Dim>::goesAlong(const Index<Dim>& cell, int axi
 {
 	Index<Dim> below = cell, above = cell + Index<Dim>::Constant(1 << level), upper = above;
 	below[axis] -= 1 << level, upper[axis] = cell[axis];
-	const auto isAround = [&](const HeldBox<Dim>& b) {
+	const auto isAround = [&](const ConstrainedBox<Dim>& b) {
 		return b.moves() && b.fixed[axis] && b.isOf(layer) && b.contains(cell) && b.contains(upper) && (b.contains(below) || b.contains(above));
 	};
 	if (std::any_of(boxes_.begin(), boxes_.end(), isAround)) return true;
 	return find(filled_, Grid<Dim>::key(cell, level, layer)) >= 0 && find(filled_, Grid<Dim>::key(below, level, layer)) >= 0;
 }
 
-template struct HeldBox<2>;
-template struct HeldBox<3>;
+template struct ConstrainedBox<2>;
+template struct ConstrainedBox<3>;
 template class Boundary<2>;
 template class Boundary<3>;
 

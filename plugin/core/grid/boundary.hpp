@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Essential boundary conditions: boxes of grid nodes held in some directions, and the walls they form.
+// Essential boundary conditions: boxes of grid nodes constrained in some directions, and the walls they form.
 #pragma once
 #include "core/grid/grid.hpp"
 #include <array>
@@ -8,7 +8,7 @@
 namespace gimpm {
 
 /// All nodes with lower <= index <= upper are held in the directions of `fixed`.
-template <int Dim> struct HeldBox {
+template <int Dim> struct ConstrainedBox {
 	Index<Dim>            lower, upper;
 	std::array<bool, Dim> fixed {};
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
@@ -22,10 +22,10 @@ template <int Dim> struct HeldBox {
 	/// The nodes of a box in space; a coordinate on a node within Grid::onLine() holds it. Infinite limits are
 	/// admitted.
 	/// Along a periodic axis the box is that between the two sides, both included.
-	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
+	static ConstrainedBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
 
 	/// The nodes on the axis of symmetry, along x.
-	static HeldBox ofAxis(const Grid<Dim>&);
+	static ConstrainedBox ofAxis(const Grid<Dim>&);
 
 	bool empty() const { return (lower.array() > upper.array()).any(); }
 
@@ -44,27 +44,30 @@ template <int Dim> struct HeldBox {
 	}
 	bool isOf(int other) const { return layer < 0 || layer == other; }
 	bool contains(Key node) const { return isOf(Grid<Dim>::layer(node)) && contains(Grid<Dim>::index(node)); }
-	bool holds(const Index<Dim>& node, int axis) const { return fixed[axis] && contains(node); }
-	bool holds(Key node, int axis) const { return fixed[axis] && contains(node); }
+	bool constrains(const Index<Dim>& node, int axis) const { return fixed[axis] && contains(node); }
+	bool constrains(Key node, int axis) const { return fixed[axis] && contains(node); }
 
 	/// Whether a node may lie in both boxes.
-	bool meets(const HeldBox& other) const;
+	bool meets(const ConstrainedBox& other) const;
 };
 
 template <int Dim> class Boundary {
 public:
 	/// `open`: boxes that hold nothing, and still let no point reach through them.
-	explicit Boundary(std::vector<HeldBox<Dim>> boxes = {}, std::vector<HeldBox<Dim>> open = {}) : boxes_(std::move(boxes)), open_(std::move(open)) { }
+	explicit Boundary(std::vector<ConstrainedBox<Dim>> boxes = {}, std::vector<ConstrainedBox<Dim>> open = {})
+	        : boxes_(std::move(boxes)), open_(std::move(open))
+	{
+	}
 
 	/// The box that holds the node in this direction (the last one given, where several do), or null.
-	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis, int layer = 0) const;
-	const HeldBox<Dim>* holder(Key node, int axis) const { return holder(Grid<Dim>::index(node), axis, Grid<Dim>::layer(node)); }
+	const ConstrainedBox<Dim>* constrainingBox(const Index<Dim>& node, int axis, int layer = 0) const;
+	const ConstrainedBox<Dim>* constrainingBox(Key node, int axis) const { return constrainingBox(Grid<Dim>::index(node), axis, Grid<Dim>::layer(node)); }
 
-	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
-	const std::vector<HeldBox<Dim>>& open() const { return open_; }
+	const std::vector<ConstrainedBox<Dim>>& boxes() const { return boxes_; }
+	const std::vector<ConstrainedBox<Dim>>& open() const { return open_; }
 
 	/// The open box that the node is in, the last one given, or null.
-	const HeldBox<Dim>* opening(const Index<Dim>& node) const;
+	const ConstrainedBox<Dim>* opening(const Index<Dim>& node) const;
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
 	/// or in open boxes; not of a face that moves with soil on both sides, or with a cell of its box on one.
@@ -80,8 +83,8 @@ public:
 private:
 	bool goesAlong(const Index<Dim>& cell, int axis, int level, int layer) const;
 
-	std::vector<HeldBox<Dim>> boxes_, open_;
-	std::vector<Key>          filled_; // sorted
+	std::vector<ConstrainedBox<Dim>> boxes_, open_;
+	std::vector<Key>                 filled_; // sorted
 };
 
 } // namespace gimpm

@@ -156,8 +156,8 @@ template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refine
 		cells.push_back(lower + Grid<Dim>::keyStep(axis, Grid<Dim>::level(lower)));
 	});
 	sortOut(cells);
-	b.nodes = cornersOf<Dim>(cells);
-	b.ties  = tieNodes(b.nodes, refinement);
+	b.nodes             = cornersOf<Dim>(cells);
+	b.affineConstraints = tieNodes(b.nodes, refinement);
 }
 
 /// The cells that stand for those of the layers, and the ties of the nodes.
@@ -175,8 +175,8 @@ template <int Dim> void part(CloudBasis<Dim>& b, const Parting<Dim>& parting)
 				cells.push_back(Parting<Dim>::in(layer, above));
 			});
 	sortOut(cells);
-	b.nodes = cornersOf<Dim>(cells);
-	b.ties  = tieNodes(b.nodes, parting);
+	b.nodes             = cornersOf<Dim>(cells);
+	b.affineConstraints = tieNodes(b.nodes, parting);
 }
 
 /// The numbers of the cells and nodes of each patch; by what cell another one stands for is given.

@@ -18,7 +18,7 @@ template <int Dim>
 Boundary<Dim> amongSoil(const Boundary<Dim>& boundary, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Division& division)
 {
 	Boundary<Dim> result = boundary;
-	if (std::none_of(boundary.boxes().begin(), boundary.boxes().end(), [](const HeldBox<Dim>& box) { return box.moves(); })) return result;
+	if (std::none_of(boundary.boxes().begin(), boundary.boxes().end(), [](const ConstrainedBox<Dim>& box) { return box.moves(); })) return result;
 	std::vector<Key> cells;
 	for (int p = 0; p < int(cloud.size()); ++p) {
 		const int        level = levelOf(cloud, p, grid, basis), layer = cloud.layerOf(p);

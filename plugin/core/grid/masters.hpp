@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What tied nodes stand for in matrices.
 #pragma once
-#include "core/grid/ties.hpp"
+#include "core/grid/affine_constraints.hpp"
 
 namespace gimpm {
 
@@ -9,18 +9,18 @@ namespace gimpm {
 class MastersOf {
 public:
 	/// Null: nothing is tied. The ties must outlive it.
-	MastersOf(int nodes, const Ties* ties) : ties_(ties), tie_(nodes, -1)
+	MastersOf(int nodes, const AffineConstraints* affineConstraints) : affineConstraints_(affineConstraints), tie_(nodes, -1)
 	{
-		for (std::size_t t = 0; ties && t < ties->node.size(); ++t)
-			tie_[ties->node[t]] = int(t);
+		for (std::size_t t = 0; affineConstraints && t < affineConstraints->node.size(); ++t)
+			tie_[affineConstraints->node[t]] = int(t);
 	}
 
 	/// Calls f(node, weight).
 	template <class F> void each(int node, F&& f) const
 	{
 		if (tie_[node] < 0) return f(node, 1.);
-		for (int m = ties_->start[tie_[node]]; m < ties_->start[tie_[node] + 1]; ++m)
-			f(ties_->master[m], ties_->weight[m]);
+		for (int m = affineConstraints_->start[tie_[node]]; m < affineConstraints_->start[tie_[node] + 1]; ++m)
+			f(affineConstraints_->master[m], affineConstraints_->weight[m]);
 	}
 	/// Calls f(node, node, product of weights) for what a pair of nodes stands for.
 	template <class F> void eachPair(int a, int b, F&& f) const
@@ -29,8 +29,8 @@ public:
 	}
 
 private:
-	const Ties*      ties_;
-	std::vector<int> tie_;
+	const AffineConstraints* affineConstraints_;
+	std::vector<int>         tie_;
 };
 
 } // namespace gimpm

@@ -24,7 +24,8 @@ template <int Dim> std::vector<int> neededBy(const Division& division, Key lowes
 		Key node = lowest;
 		for (int a = 0, rest = n; a < Dim; ++a, rest /= wide)
 			node += Key(std::int64_t(below + rest % wide)) * Grid<Dim>::keyStep(a);
-		if (const int holder = division.holderOf(grid.first(node)); needed.empty() || needed.back() != holder) needed.push_back(holder);
+		if (const int constrainingBox = division.processOf(grid.first(node)); needed.empty() || needed.back() != constrainingBox)
+			needed.push_back(constrainingBox);
 	}
 	std::sort(needed.begin(), needed.end());
 	needed.erase(std::unique(needed.begin(), needed.end()), needed.end());

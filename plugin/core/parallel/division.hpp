@@ -2,7 +2,7 @@
 // How points are divided among processes, of which each knows all nodes and cells, but only the points at its own.
 #pragma once
 #include "core/base/types.hpp"
-#include "core/parallel/node_share.hpp"
+#include "core/parallel/owned_nodes.hpp"
 #include "core/parallel/together.hpp"
 #include <algorithm>
 #include <memory>
@@ -40,14 +40,14 @@ struct Division {
 	}
 
 	/// Who has the node or the cell.
-	int  holderOf(Key key) const { return int(std::upper_bound(first.begin(), first.end(), key) - first.begin()); }
-	bool owns(Key key) const { return holderOf(key) == processes->rank(); }
+	int  processOf(Key key) const { return int(std::upper_bound(first.begin(), first.end(), key) - first.begin()); }
+	bool owns(Key key) const { return processOf(key) == processes->rank(); }
 
 	/// First of each process among sorted keys, and their number.
 	std::vector<int> startsAmong(const std::vector<Key>& sorted) const;
 
 	/// The nodes around which each process knows all points.
-	NodeShare shareOf(const std::vector<Key>& sortedNodes) const { return { *processes, startsAmong(sortedNodes) }; }
+	OwnedNodes shareOf(const std::vector<Key>& sortedNodes) const { return { *processes, startsAmong(sortedNodes) }; }
 
 	/// The keys of all, from those that each process has in its own range.
 	std::vector<Key> united(std::vector<Key> sorted) const;

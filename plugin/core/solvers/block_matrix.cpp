@@ -15,9 +15,9 @@ template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const
 
 template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Range& here, const Range& own) : first_ { 0 }
 {
-	const auto isHeld  = [&](int node, int axis) { return dofs.number[Dim * node + axis] < 0; };
-	const auto isOwn   = [&](int node) { return node >= own.first && node < own.second; };
-	const auto isThere = [&](int a, int c) { return c == 0 || (K.used(a, c) && (isOwn(a) || isOwn(K.neighbour(a, c)))); };
+	const auto isConstrained = [&](int node, int axis) { return dofs.number[Dim * node + axis] < 0; };
+	const auto isOwn         = [&](int node) { return node >= own.first && node < own.second; };
+	const auto isThere       = [&](int a, int c) { return c == 0 || (K.used(a, c) && (isOwn(a) || isOwn(K.neighbour(a, c)))); };
 	for (int a = here.first; a < here.second; ++a) {
 		for (int c = 0; c < K.codes; ++c)
 			if (isThere(a, c)) neighbour_.push_back(K.neighbour(a, c) - here.first);
@@ -33,7 +33,8 @@ template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const
 			const double* in      = isAlone ? nullptr : K.at(a, c);
 			for (int i = 0; i < Dim; ++i)
 				for (int j = 0; j < Dim; ++j)
-					*out++ = isAlone || isHeld(a, i) || isHeld(K.neighbour(a, c), j) ? double(c == 0 && i == j) : in[i * Dim + j];
+					*out++ = isAlone || isConstrained(a, i) || isConstrained(K.neighbour(a, c), j) ? double(c == 0 && i == j)
+					                                                                               : in[i * Dim + j];
 		}
 	cutIntoSlabs();
 }

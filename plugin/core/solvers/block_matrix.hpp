@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Vectors have Dim components a node. Rows and columns of held degrees of freedom are those of the identity.
+/// Vectors have Dim components a node. Rows and columns of constrained degrees of freedom are those of the identity.
 template <int Dim> class BlockMatrix : public SymmetricOperator {
 public:
 	using Range = typename NodeMatrix<Dim>::Range;

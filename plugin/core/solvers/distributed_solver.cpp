@@ -37,8 +37,8 @@ Eigen::VectorXd scaleOf(const NodeRows& rows)
 } // namespace
 
 /// Which part of a vector is whose.
-struct DistributedSolver::Spread {
-	NodeShare         share;
+struct DistributedSolver::Partition {
+	OwnedNodes        ownedNodes;
 	std::vector<int>  dof;    ///< of the rows of this process
 	std::vector<int>  widths; ///< unknowns a node of each field
 	std::vector<bool> isFree;
@@ -60,7 +60,7 @@ struct DistributedSolver::Spread {
 		Eigen::VectorXd all = Eigen::VectorXd::Zero(Eigen::Index(isFree.size()));
 		for (std::size_t r = 0; r < dof.size(); ++r)
 			all[dof[r]] = own[Eigen::Index(r)];
-		complete(share, widths, all);
+		complete(ownedNodes, widths, all);
 		return all;
 	}
 	/// The way back.
@@ -76,44 +76,44 @@ struct DistributedSolver::Spread {
 };
 
 struct DistributedSolver::Task {
-	const NodeProblem&      problem;
-	bool                    isSymmetric;
-	Eigen::VectorXd         b; ///< on the free degrees of freedom, of size 1
-	double                  tolerance;
-	SolverTimes&            times;
-	IterativeEffort&        effort;
-	Eigen::VectorXd         x {};
-	double                  error  = 1; ///< |b - K x| / |b|
-	bool                    goesOn = false, hasPositions = false;
-	std::string             failure {}; ///< of the iterations
-	std::optional<NodeRows> rows {};    ///< for the library; read when they are needed
-	std::unique_ptr<Spread> spread {};
+	const NodeProblem&         problem;
+	bool                       isSymmetric;
+	Eigen::VectorXd            b; ///< on the free degrees of freedom, of size 1
+	double                     tolerance;
+	SolverTimes&               times;
+	IterativeEffort&           effort;
+	Eigen::VectorXd            x {};
+	double                     error  = 1; ///< |b - K x| / |b|
+	bool                       goesOn = false, hasPositions = false;
+	std::string                failure {}; ///< of the iterations
+	std::optional<NodeRows>    rows {};    ///< for the library; read when they are needed
+	std::unique_ptr<Partition> partition {};
 
 	/// Empty, or why there are none.
 	std::string readRows()
 	{
 		if (rows) return "";
 		rows                       = problem.rows();
-		const std::string obstacle = obstacleTo(rows, problem.share(), hasPositions);
+		const std::string obstacle = obstacleTo(rows, problem.ownedNodes(), hasPositions);
 		if (!obstacle.empty()) rows.reset();
 		else
-			spread.reset(new Spread { problem.share(), rows->dof, rows->widths, problem.unknowns().isFree });
+			partition.reset(new Partition { problem.ownedNodes(), rows->dof, rows->widths, problem.unknowns().isFree });
 		return obstacle;
 	}
 };
 
 /// As the factor is that of D K D, with ones on the diagonal.
 struct DistributedSolver::Factor {
-	Spread          spread;
+	Partition       partition;
 	Eigen::VectorXd scale; ///< D of this process
 
 	bool solve(void* solver, const Eigen::VectorXd& b, Eigen::VectorXd& x) const
 	{
 		x                           = b;
-		const Eigen::VectorXd right = scale.cwiseProduct(spread.own(b));
+		const Eigen::VectorXd right = scale.cwiseProduct(partition.own(b));
 		Eigen::VectorXd       own(right.size());
 		if (!library().substitute(solver, right.data(), own.data())) return false;
-		x = spread.whole(scale.cwiseProduct(own));
+		x = partition.whole(scale.cwiseProduct(own));
 		return x.allFinite();
 	}
 };
@@ -174,7 +174,7 @@ bool DistributedSolver::iterate(Task& task, LinearMethod method)
 bool DistributedSolver::iterateWithMultigrid(Task& task)
 {
 	if (!giveMatrix(task)) return false;
-	if (task.problem.unknowns() == unknowns_ && task.problem.share().start == start_) {
+	if (task.problem.unknowns() == unknowns_ && task.problem.ownedNodes().start == start_) {
 		const double expected = perDecade_ * std::log10(task.error / task.tolerance);
 		const int    before   = task.effort.iterations;
 		if (run(task, few + int(tooMany * expected))) {
@@ -208,11 +208,11 @@ bool DistributedSolver::giveMatrix(Task& task)
 bool DistributedSolver::run(Task& task, int atMost)
 {
 	const Stopwatch       watch(task.times.solve);
-	const Eigen::VectorXd b = task.spread->own(task.b);
-	Eigen::VectorXd       x = task.goesOn ? task.spread->own(task.x) : b;
+	const Eigen::VectorXd b = task.partition->own(task.b);
+	Eigen::VectorXd       x = task.goesOn ? task.partition->own(task.x) : b;
 	DistributedIteration  iteration { task.goesOn, task.tolerance, atMost, 0, task.error, false, false };
 	library().iterate(solver_, &iteration, b.data(), x.data());
-	task.x = task.spread->whole(x);
+	task.x = task.partition->whole(x);
 	task.effort.iterations += iteration.made;
 	task.error  = iteration.error;
 	task.goesOn = !iteration.hasBrokenDown && std::isfinite(iteration.error);
@@ -228,7 +228,7 @@ void DistributedSolver::setUp(Task& task)
 	library().setUp(solver_);
 	++task.effort.hierarchies;
 	unknowns_ = task.problem.unknowns();
-	start_    = task.problem.share().start;
+	start_    = task.problem.ownedNodes().start;
 }
 
 /// D K D with ones on the diagonal, as in one process.
@@ -237,7 +237,7 @@ SolverStatus DistributedSolver::factorise(Task& task)
 	const Stopwatch watch(task.times.factorise);
 	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.effort.reason = obstacle, SolverStatus::singular;
 	const NodeRows&       rows  = *task.rows;
-	const Eigen::VectorXd scale = scaleOf(rows), ofAll = task.spread->all(scale);
+	const Eigen::VectorXd scale = scaleOf(rows), ofAll = task.partition->all(scale);
 	std::vector<double>   scaled(rows.value);
 	for (int r = 0; r < rows.rows(); ++r)
 		for (int e = rows.start[r]; e < rows.start[r + 1]; ++e)
@@ -246,7 +246,7 @@ SolverStatus DistributedSolver::factorise(Task& task)
 	library().setMatrix(solver_, &view);
 	int negative = 0;
 	if (!library().factorise(solver_, smallestPivot, &negative)) return SolverStatus::singular;
-	factor_.reset(new Factor { *task.spread, scale });
+	factor_.reset(new Factor { *task.partition, scale });
 	return task.isSymmetric && negative == 0 ? SolverStatus::cholesky : SolverStatus::lu;
 }
 

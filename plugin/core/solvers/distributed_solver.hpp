@@ -34,7 +34,7 @@ public:
 	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 private:
-	struct Spread;
+	struct Partition;
 	struct Task;
 	struct Factor;
 

@@ -12,8 +12,8 @@ constexpr double overDiagonal = 2;
 
 template <int Dim> class FieldRows {
 public:
-	FieldRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings& couplings)
-	        : K_(K), dofs_(dofs), share_(share), couplings_(couplings), map_(couplings.map()), row_(K.nodes(), -1)
+	FieldRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings& couplings)
+	        : K_(K), dofs_(dofs), ownedNodes_(ownedNodes), couplings_(couplings), map_(couplings.map()), row_(K.nodes(), -1)
 	{
 		for (int field = 0; field < map_.fields(); ++field)
 			before_.push_back(width_), width_ += map_[field].width;
@@ -21,8 +21,8 @@ public:
 			if (!isFree(a)) continue;
 			row_[a] = int(nodes_.size());
 			nodes_.push_back(a);
-			if (a < share.first()) begin_ = int(nodes_.size());
-			if (a < share.last()) end_ = int(nodes_.size());
+			if (a < ownedNodes.first()) begin_ = int(nodes_.size());
+			if (a < ownedNodes.last()) end_ = int(nodes_.size());
 		}
 		findColumns();
 	}
@@ -65,7 +65,7 @@ private:
 		forUnknowns(node, [&](int i) { is |= dofs_.number[i] >= 0; });
 		return is;
 	}
-	bool isHeld(const FieldNode& fieldNode, int component) const { return dofs_.number[map_.at(fieldNode.field, fieldNode.node) + component] < 0; }
+	bool isConstrained(const FieldNode& fieldNode, int component) const { return dofs_.number[map_.at(fieldNode.field, fieldNode.node) + component] < 0; }
 	bool isOwn(int row) const { return row >= begin_ && row < end_; }
 
 	/// Calls f(row, column, value, opposite) for the blocks in own rows; value(i, j) is K_ij, opposite(i, j) K_ji.
@@ -156,7 +156,7 @@ private:
 			for (int i = 0; i < map_[row.field].width; ++i)
 				for (int j = 0; j < map_[column.field].width; ++j) {
 					const int r = rowOf(row, i), e = out.start[r] + at + j;
-					if (isHeld(row, i) || isHeld(column, j)) {
+					if (isConstrained(row, i) || isConstrained(column, j)) {
 						if (isSame(row, column) && i == j) ofHeld[r] += value(i, i);
 						continue;
 					}
@@ -185,7 +185,7 @@ private:
 			for (int i = 0; i < map_[row.field].width; ++i)
 				for (int j = 0; j < Dim; ++j) {
 					const double stiffness = D[Dim * column.node + j];
-					if (isHeld(row, i) || stiffness == 0) continue;
+					if (isConstrained(row, i) || stiffness == 0) continue;
 					out.symmetricPart[diagonalOf(out, rowOf(row, i))] -= overDiagonal * value(i, j) * opposite(i, j) / stiffness;
 				}
 		});
@@ -196,7 +196,7 @@ private:
 		Eigen::VectorXd D = Eigen::VectorXd::Zero(map_.end(0));
 		for (int r = 0; r < int(out.dof.size()); ++r)
 			if (const int i = out.dof[r]; i < map_.end(0) && dofs_.number[i] >= 0) D[i] = out.value[diagonalOf(out, r)];
-		share_.complete(D);
+		ownedNodes_.complete(D);
 		return D;
 	}
 
@@ -212,7 +212,7 @@ private:
 
 	const NodeMatrix<Dim>&        K_;
 	const FreeDofs&               dofs_;
-	const NodeShare&              share_;
+	const OwnedNodes&             ownedNodes_;
 	const Couplings&              couplings_;
 	const DofMap&                 map_;
 	int                           width_ = 0;           ///< unknowns a node, of all fields
@@ -224,14 +224,14 @@ private:
 
 } // namespace
 
-template <int Dim> std::optional<NodeRows> fieldRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings& couplings)
+template <int Dim> std::optional<NodeRows> fieldRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings& couplings)
 {
-	const FieldRows<Dim> rows(K, dofs, share, couplings);
+	const FieldRows<Dim> rows(K, dofs, ownedNodes, couplings);
 	if (rows.entries() > std::size_t(std::numeric_limits<int>::max())) return std::nullopt;
 	return rows.make();
 }
 
-template std::optional<NodeRows> fieldRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare&, const Couplings&);
-template std::optional<NodeRows> fieldRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare&, const Couplings&);
+template std::optional<NodeRows> fieldRows(const NodeMatrix<2>&, const FreeDofs&, const OwnedNodes&, const Couplings&);
+template std::optional<NodeRows> fieldRows(const NodeMatrix<3>&, const FreeDofs&, const OwnedNodes&, const Couplings&);
 
 } // namespace gimpm

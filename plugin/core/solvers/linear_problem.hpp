@@ -15,13 +15,13 @@ public:
 
 	/// The matrix and what is beside it must outlive it. It is solved by all processes that share its rows.
 	template <int Dim>
-	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings = nullptr)
-	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, share, couplings))
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings* couplings = nullptr)
+	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, ownedNodes, couplings))
 	{
 	}
 	template <int Dim>
 	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings = nullptr)
-	        : LinearProblem(K, dofs, NodeShare::whole(K.nodes()), couplings)
+	        : LinearProblem(K, dofs, OwnedNodes::whole(K.nodes()), couplings)
 	{
 	}
 
@@ -33,7 +33,7 @@ public:
 	const NodeProblem* overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; }
 	/// Null: only compressed.
 	const NodeProblem* ofAllFields() const { return overNodes_.get(); }
-	bool               isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
+	bool               isShared() const { return overNodes_ && !overNodes_->ownedNodes().isWhole(); }
 	bool               isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
 	bool               hasSigns() const { return overNodes_ && overNodes_->hasSigns(); }
 
@@ -74,7 +74,7 @@ template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDof
 {
 	return std::visit(
 	        [](auto&& compressed) { return LinearProblem(std::move(compressed)); },
-	        nodeProblem(K, dofs, NodeShare::whole(K.nodes()), couplings)->compressed());
+	        nodeProblem(K, dofs, OwnedNodes::whole(K.nodes()), couplings)->compressed());
 }
 
 } // namespace gimpm

@@ -247,9 +247,9 @@ bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorX
 	return failure.empty();
 }
 
-void LinearSolver::openTogether(const NodeShare& share)
+void LinearSolver::openTogether(const OwnedNodes& ownedNodes)
 {
-	if (!together_ || together_->isShared() == share.isWhole()) together_.reset(new DistributedSolver(!share.isWhole()));
+	if (!together_ || together_->isShared() == ownedNodes.isWhole()) together_.reset(new DistributedSolver(!ownedNodes.isWhole()));
 }
 
 /// Empty, or why it fails. Symmetric matrices of several fields often are not positive definite: what leaves a body of
@@ -259,7 +259,7 @@ std::string LinearSolver::solveFields(const LinearProblem& K, const Eigen::Vecto
 	if (method != LinearMethod::iterative) {
 		const std::string absence = Multigrid::absence();
 		if (absence.empty()) {
-			openTogether(K.ofAllFields()->share());
+			openTogether(K.ofAllFields()->ownedNodes());
 			return together_->solveWithMultigrid(*K.ofAllFields(), K.isSymmetric(), b, x, tolerance, times_, effort_);
 		}
 		if (method == LinearMethod::multigrid) return "multigrid: " + absence;
@@ -290,11 +290,11 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 /// process.
 LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
-	openTogether(K.ofAllFields()->share());
+	openTogether(K.ofAllFields()->ownedNodes());
 	if (method == LinearMethod::automatic) {
 		// By the blocks that each of them knows.
 		std::int64_t isLarge = K.ofAllFields()->needsMoreFlopsPerEntry(worthwhileFlops);
-		K.ofAllFields()->share().processes.smallest(&isLarge, 1);
+		K.ofAllFields()->ownedNodes().processes.smallest(&isLarge, 1);
 		if (!isLarge) method = LinearMethod::direct;
 	}
 	return together_->solve(*K.ofAllFields(), K.isSymmetric(), b, x, method, tolerance, times_, effort_);

@@ -67,7 +67,7 @@ private:
 
 	static bool isAlwaysIterative(LinearMethod method) { return method == LinearMethod::iterative || method == LinearMethod::multigrid; }
 	Status      factorise(const LinearProblem& K);
-	void        openTogether(const NodeShare&);
+	void        openTogether(const OwnedNodes&);
 	std::string solveFields(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method);
 	Status      solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 

@@ -14,18 +14,18 @@ void Multigrid::openFrom(const std::string& file) { PetscLibrary::get() = { file
 
 std::string Multigrid::absence() { return PetscLibrary::get().open(); }
 
-Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, NodeShare share, std::shared_ptr<const SymmetricOperator> K)
+Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, OwnedNodes ownedNodes, std::shared_ptr<const SymmetricOperator> K)
         : rows_(std::move(rows))
         , unknowns_(std::move(unknowns))
-        , share_(std::move(share))
+        , ownedNodes_(std::move(ownedNodes))
         , K_(std::move(K))
         , in_(rows_.rows())
         , out_(rows_.rows())
-        , nodal_(Eigen::VectorXd::Zero(rows_.dim * (share_.last() - share_.first())))
+        , nodal_(Eigen::VectorXd::Zero(rows_.dim * (ownedNodes_.last() - ownedNodes_.first())))
         , image_(nodal_)
 {
 	for (int& dof : rows_.dof)
-		dof -= rows_.dim * share_.first();
+		dof -= rows_.dim * ownedNodes_.first();
 }
 
 std::unique_ptr<Multigrid> Multigrid::of(const NodeProblem& problem, std::shared_ptr<const SymmetricOperator> K, std::string& reason)
@@ -34,9 +34,9 @@ std::unique_ptr<Multigrid> Multigrid::of(const NodeProblem& problem, std::shared
 	if (!reason.empty()) return nullptr;
 	auto rows         = problem.rows();
 	bool hasPositions = false;
-	reason            = obstacleTo(rows, problem.share(), hasPositions);
+	reason            = obstacleTo(rows, problem.ownedNodes(), hasPositions);
 	if (!reason.empty()) return nullptr;
-	std::unique_ptr<Multigrid> made(new Multigrid(std::move(*rows), problem.unknowns(), problem.share(), std::move(K)));
+	std::unique_ptr<Multigrid> made(new Multigrid(std::move(*rows), problem.unknowns(), problem.ownedNodes(), std::move(K)));
 	if (!made->setUp(hasPositions, reason)) return nullptr;
 	return made;
 }
@@ -52,7 +52,7 @@ bool Multigrid::setUp(bool hasPositions, std::string& reason)
 	const MultigridMatrix K { rows_.dim,
 		                  rows_.rows(),
 		                  rows_.all,
-		                  !share_.isWhole(),
+		                  !ownedNodes_.isWhole(),
 		                  rows_.start.data(),
 		                  rows_.column.data(),
 		                  numbersOf(rows_.value, true),
@@ -64,7 +64,7 @@ bool Multigrid::setUp(bool hasPositions, std::string& reason)
 	return hierarchy_ != nullptr;
 }
 
-bool Multigrid::fits(const NodeProblem& problem) const { return problem.unknowns() == unknowns_ && problem.share().start == share_.start; }
+bool Multigrid::fits(const NodeProblem& problem) const { return problem.unknowns() == unknowns_ && problem.ownedNodes().start == ownedNodes_.start; }
 
 /// The product over nodes is done by blocks and in threads, and so takes a third to a fifth of that by rows.
 void Multigrid::multiply(void* self, const double* x, double* y)

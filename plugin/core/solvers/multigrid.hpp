@@ -23,17 +23,17 @@ public:
 
 	bool fits(const NodeProblem&) const;
 
-	/// Of vectors as the product with the matrix has them, with zeros for the held degrees of freedom.
+	/// Of vectors as the product with the matrix has them, with zeros for the constrained degrees of freedom.
 	std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const override;
 
 private:
-	Multigrid(NodeRows, Unknowns, NodeShare, std::shared_ptr<const SymmetricOperator>);
+	Multigrid(NodeRows, Unknowns, OwnedNodes, std::shared_ptr<const SymmetricOperator>);
 	bool        setUp(bool hasPositions, std::string& reason);
 	static void multiply(void* self, const double* x, double* y);
 
 	NodeRows                                 rows_;
 	Unknowns                                 unknowns_;
-	NodeShare                                share_; ///< of the rows
+	OwnedNodes                               ownedNodes_; ///< of the rows
 	std::shared_ptr<const SymmetricOperator> K_;
 	void*                                    hierarchy_ = nullptr;
 	mutable Eigen::VectorXd                  in_, out_;      ///< of the hierarchy

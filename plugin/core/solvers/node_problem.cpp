@@ -35,8 +35,8 @@ private:
 
 template <int Dim> class Problem : public NodeProblem {
 public:
-	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
-	        : K_(K), dofs_(dofs), share_(share), couplings_(couplings)
+	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings* couplings)
+	        : K_(K), dofs_(dofs), ownedNodes_(ownedNodes), couplings_(couplings)
 	{
 	}
 
@@ -50,7 +50,7 @@ public:
 	}
 	std::unique_ptr<SymmetricOperator> blocks() const override
 	{
-		if (!share_.isWhole()) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, share_, couplings_);
+		if (!ownedNodes_.isWhole()) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, ownedNodes_, couplings_);
 		if (couplings_) return std::make_unique<CoupledBlocks<Dim>>(K_, dofs_, *couplings_);
 		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
 	}
@@ -67,21 +67,21 @@ public:
 	{
 		Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs_.number.size());
 		forFree([&](int dof, int number) { all[dof] = x[number]; });
-		return share_.isWhole() ? all : Eigen::VectorXd(share_.own(all));
+		return ownedNodes_.isWhole() ? all : Eigen::VectorXd(ownedNodes_.own(all));
 	}
 	Eigen::VectorXd ofFreeDofs(Eigen::VectorXd all) const override
 	{
-		if (!share_.isWhole()) all = completed(all);
+		if (!ownedNodes_.isWhole()) all = completed(all);
 		Eigen::VectorXd x(dofs_.count);
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
 	std::optional<NodeRows> rows() const override
 	{
-		return isOfOneField() ? nodeRows(K_, dofs_, share_, couplings_) : fieldRows(K_, dofs_, share_, *couplings_);
+		return isOfOneField() ? nodeRows(K_, dofs_, ownedNodes_, couplings_) : fieldRows(K_, dofs_, ownedNodes_, *couplings_);
 	}
-	const NodeShare& share() const override { return share_; }
-	Unknowns         unknowns() const override
+	const OwnedNodes& ownedNodes() const override { return ownedNodes_; }
+	Unknowns          unknowns() const override
 	{
 		Unknowns all { K_.keys(), {} };
 		for (const int number : dofs_.number)
@@ -123,8 +123,8 @@ private:
 	Eigen::VectorXd completed(const Eigen::VectorXd& own) const
 	{
 		Eigen::VectorXd all(dofs_.number.size());
-		share_.own(all) = own;
-		share_.complete(all);
+		ownedNodes_.own(all) = own;
+		ownedNodes_.complete(all);
 		return all;
 	}
 	/// Calls f(unknown) for those of a node, of all fields.
@@ -202,18 +202,19 @@ private:
 
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
-	const NodeShare        share_;
+	const OwnedNodes       ownedNodes_;
 	const Couplings*       couplings_; ///< null: there are none
 };
 
 } // namespace
 
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
+template <int Dim>
+std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings* couplings)
 {
-	return std::make_unique<Problem<Dim>>(K, dofs, share, couplings);
+	return std::make_unique<Problem<Dim>>(K, dofs, ownedNodes, couplings);
 }
 
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare&, const Couplings*);
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare&, const Couplings*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const OwnedNodes&, const Couplings*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const OwnedNodes&, const Couplings*);
 
 } // namespace gimpm

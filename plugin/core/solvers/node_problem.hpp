@@ -33,7 +33,7 @@ struct NodeProblem {
 	/// definite.
 	virtual bool hasSigns() const = 0;
 
-	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where
+	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the constrained ones; where
 	/// processes share the matrix, for the rows of this one.
 	virtual std::unique_ptr<SymmetricOperator> blocks() const = 0;
 	/// Of the free degrees of freedom.
@@ -42,9 +42,9 @@ struct NodeProblem {
 	virtual Eigen::VectorXd ofFreeDofs(Eigen::VectorXd x) const = 0;
 
 	/// For multigrid; where processes share the matrix, the rows of this one, and all call it.
-	virtual std::optional<NodeRows> rows() const     = 0;
-	virtual Unknowns                unknowns() const = 0;
-	virtual const NodeShare&        share() const    = 0; ///< of the rows
+	virtual std::optional<NodeRows> rows() const       = 0;
+	virtual Unknowns                unknowns() const   = 0;
+	virtual const OwnedNodes&       ownedNodes() const = 0; ///< of the rows
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the positions of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
@@ -55,6 +55,6 @@ struct NodeProblem {
 };
 
 /// The matrix and what is beside it must outlive it.
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const OwnedNodes&, const Couplings* = nullptr);
 
 } // namespace gimpm

@@ -8,18 +8,18 @@ namespace {
 
 template <int Dim> class Rows {
 public:
-	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
+	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings* couplings)
 	        : K_(K), dofs_(dofs), couplings_(couplings), row_(K.nodes(), -1)
 	{
 		for (int a = 0; a < K.nodes(); ++a) {
 			bool isFree = false;
 			for (int i = 0; i < Dim; ++i)
-				isFree |= !isHeld(a, i);
+				isFree |= !isConstrained(a, i);
 			if (!isFree) continue;
 			row_[a] = int(nodes_.size());
 			nodes_.push_back(a);
-			if (a < share.first()) begin_ = int(nodes_.size());
-			if (a < share.last()) end_ = int(nodes_.size());
+			if (a < ownedNodes.first()) begin_ = int(nodes_.size());
+			if (a < ownedNodes.last()) end_ = int(nodes_.size());
 		}
 		findBlocks();
 	}
@@ -34,7 +34,7 @@ public:
 				out.columnDof.push_back(Dim * node + i);
 		for (int n = begin_; n < end_; ++n)
 			for (int i = 0; i < Dim; ++i) {
-				if (isHeld(nodes_[n], i)) out.held.push_back({ out.rows(), diagonalOf(nodes_[n], i) });
+				if (isConstrained(nodes_[n], i)) out.held.push_back({ out.rows(), diagonalOf(nodes_[n], i) });
 				out.dof.push_back(Dim * nodes_[n] + i);
 			}
 		startRows(out);
@@ -70,16 +70,17 @@ private:
 		}
 	};
 
-	bool isHeld(int node, int axis) const { return dofs_.number[Dim * node + axis] < 0; }
+	bool isConstrained(int node, int axis) const { return dofs_.number[Dim * node + axis] < 0; }
 	int  count() const { return end_ - begin_; }
 	bool isOwn(int row) const { return row >= begin_ && row < end_; }
 	int  firstOf(int n) const { return first_[n - begin_]; }
 
-	/// That of a held component is as large as its neighbours', whose unknowns multigrid takes together with it.
+	/// That of a constrained component is as large as its neighbours', whose unknowns multigrid takes together with
+	/// it.
 	double diagonalOf(int node, int axis) const
 	{
 		const double diagonal = K_.at(node, 0)[axis * Dim + axis];
-		return diagonal > 0 || !isHeld(node, axis) ? diagonal : 1;
+		return diagonal > 0 || !isConstrained(node, axis) ? diagonal : 1;
 	}
 
 	/// Calls f(row, block) for each block of the rows.
@@ -146,8 +147,9 @@ private:
 				const Block& block = blocks_[e];
 				if (!isSameAsBefore(n, e)) at += Dim;
 				for (int j = 0; j < Dim; ++j) {
-					const bool isDiagonal = block.column == n && i == j, holds = isHeld(nodes_[n], i) || isHeld(nodes_[block.column], j);
-					out.column[at + j] = Dim * block.column + j;
+					const bool isDiagonal = block.column == n && i == j,
+					           holds      = isConstrained(nodes_[n], i) || isConstrained(nodes_[block.column], j);
+					out.column[at + j]    = Dim * block.column + j;
 					if (isDiagonal && !block.isCoupled) value[at + j] = diagonalOf(nodes_[n], i);
 					else if (!holds)
 						value[at + j] += block.at(i, j, part);
@@ -177,24 +179,24 @@ private:
 
 } // namespace
 
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const OwnedNodes& ownedNodes, const Couplings* couplings)
 {
-	Rows<Dim> rows(K, dofs, share, couplings);
+	Rows<Dim> rows(K, dofs, ownedNodes, couplings);
 	if (rows.entries() > std::size_t(std::numeric_limits<int>::max())) return std::nullopt;
 	return rows.make();
 }
 
-std::string obstacleTo(const std::optional<NodeRows>& rows, const NodeShare& share, bool& hasPositions)
+std::string obstacleTo(const std::optional<NodeRows>& rows, const OwnedNodes& ownedNodes, bool& hasPositions)
 {
 	std::int64_t isThere[3] = { rows.has_value(), 0, !(rows && !rows->position.empty()) };
 	if (rows) isThere[1] = std::all_of(rows->value.begin(), rows->value.end(), [](double value) { return std::isfinite(value); });
-	share.processes.smallest(isThere, 3);
+	ownedNodes.processes.smallest(isThere, 3);
 	hasPositions = !isThere[2];
 	if (!isThere[0]) return "the matrix has more entries than can be counted";
 	return isThere[1] ? "" : "the matrix has numbers that are not finite";
 }
 
-template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare&, const Couplings*);
-template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare&, const Couplings*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const OwnedNodes&, const Couplings*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const OwnedNodes&, const Couplings*);
 
 } // namespace gimpm

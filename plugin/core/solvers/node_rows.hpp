@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A matrix over nodes in compressed rows, as multigrid is given it: all rows, or those of one of several processes.
 #pragma once
-#include "core/parallel/node_share.hpp"
+#include "core/parallel/owned_nodes.hpp"
 #include "core/solvers/reduce.hpp"
 #include <optional>
 #include <string>
 
 namespace gimpm {
 
-/// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A held component has only its
-/// diagonal.
+/// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A constrained component has only
+/// its diagonal.
 struct NodeRows {
 	int                 dim;   ///< unknowns a node
 	int                 all;   ///< rows, of all processes
@@ -32,11 +32,11 @@ struct NodeRows {
 };
 
 /// Nothing if there are more entries than an int can count. Those of this process.
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const OwnedNodes&, const Couplings* = nullptr);
 
 /// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether
 /// there are any, which a process without rows hears from the others.
-std::string obstacleTo(const std::optional<NodeRows>&, const NodeShare&, bool& hasPositions);
+std::string obstacleTo(const std::optional<NodeRows>&, const OwnedNodes&, bool& hasPositions);
 
 /// What rows have that there are none of, where other processes have some.
 inline const double* numbersOf(const std::vector<double>& numbers, bool areThere)

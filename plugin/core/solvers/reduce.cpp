@@ -29,7 +29,7 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 /// The same with ties.
 template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
 {
-	const MastersOf masters(K.nodes(), dofs.ties);
+	const MastersOf masters(K.nodes(), dofs.affineConstraints);
 	for (int a = 0; a < K.nodes(); ++a)
 		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
 			if (!K.used(a, c)) continue;
@@ -54,7 +54,7 @@ template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const 
 template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& dofs, F&& f)
 {
 	const DofMap&   map = K.map();
-	const MastersOf masters(map.nodes(), dofs.ties);
+	const MastersOf masters(map.nodes(), dofs.affineConstraints);
 	K.forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
 		const Field &ofRow = map[row.field], &ofColumn = map[column.field];
 		const bool   isMirrored = K.isSymmetric() && (row.field != column.field || row.node != column.node);
@@ -76,7 +76,7 @@ template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& do
 /// Of all of them.
 template <int Dim, class F> void forEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, F&& f)
 {
-	if (dofs.ties) forTiedEntries(K, dofs, f);
+	if (dofs.affineConstraints) forTiedEntries(K, dofs, f);
 	else
 		forFreeEntries(K, dofs, f);
 	if (couplings) forCoupledEntries(*couplings, dofs, f);
@@ -248,13 +248,13 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties) return reduceUnordered(K, dofs, couplings, true, out);
+	if (K.isPeriodic() || dofs.affineConstraints) return reduceUnordered(K, dofs, couplings, true, out);
 	reduceInOrder(K, dofs, couplings, out);
 }
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, false, out);
+	if (K.isPeriodic() || dofs.affineConstraints || couplings) return reduceUnordered(K, dofs, couplings, false, out);
 	fill(out, dofs.count, [&](auto&& f) { forEntries(K, dofs, couplings, f); });
 }
 

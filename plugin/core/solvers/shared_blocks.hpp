@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A symmetric matrix over nodes of which each of several processes has the rows of its nodes.
 #pragma once
-#include "core/parallel/node_share.hpp"
+#include "core/parallel/owned_nodes.hpp"
 #include "core/solvers/block_matrix.hpp"
 #include <map>
 
@@ -12,7 +12,7 @@ namespace gimpm {
 template <int Dim> class SharedBlocks : public SymmetricOperator {
 public:
 	/// With vectors of Dim components for each own node. Its processes must outlive it.
-	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
+	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const OwnedNodes&, const Couplings* = nullptr);
 
 	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
 	Eigen::VectorXd diagonal() const override;
@@ -30,12 +30,12 @@ private:
 		Eigen::VectorXd  sent, received;
 	};
 
-	static Range hereOf(const NodeMatrix<Dim>&, const NodeShare&, const Couplings*);
+	static Range hereOf(const NodeMatrix<Dim>&, const OwnedNodes&, const Couplings*);
 	void         findBorders(const NodeMatrix<Dim>&, const Couplings*);
 	void         fetch(const Eigen::VectorXd& x) const;
 
-	const NodeShare  share_; // of its own: multigrid goes on with it in later steps
-	Range            here_;  ///< own nodes and their neighbours, with what is between them
+	const OwnedNodes ownedNodes_; // of its own: multigrid goes on with it in later steps
+	Range            here_;       ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim> blocks_;
 	/// Of couplings, in the rows of own nodes, by positions among those that are here.
 	std::vector<MatrixEntry>      entries_;

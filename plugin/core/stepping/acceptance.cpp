@@ -99,7 +99,7 @@ template <int Dim> bool requireSamePoints(const PointCloud<Dim>& cloud, const Mo
 
 } // namespace
 
-void judge(const LocalError& error, StepReport& report)
+void testError(const LocalError& error, StepReport& report)
 {
 	const double found = error.size / error.tolerance;
 	if (found > report.localError) report.localError = found, report.errorOrder = error.order;
@@ -117,7 +117,7 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>& system, const Eige
 			fail(report, refusal.failure, refusal.cause);
 			report.advice = refusal.advice;
 		}
-		judge(term->localError(d), report);
+		testError(term->localError(d), report);
 	}
 }
 
@@ -126,7 +126,7 @@ template <int Dim> void judgeFields(const StepSystem<Dim>& system, const Eigen::
 	const State state = system.state(growth);
 	for (const auto* term : system.coupled())
 		for (const LocalError& error : term->fieldErrors(state))
-			judge(error, report);
+			testError(error, report);
 }
 
 template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)

@@ -9,7 +9,7 @@ namespace gimpm {
 template <int Dim> void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 /// An error above its tolerance makes the step fail. The report says so.
-void judge(const LocalError&, StepReport&);
+void testError(const LocalError&, StepReport&);
 
 /// The same of what terms of several fields tell, after these have grown so much.
 template <int Dim> void judgeFields(const StepSystem<Dim>&, const Eigen::VectorXd& growth, StepReport&);

@@ -89,8 +89,8 @@ private:
 /// Whose the force on a node behind a wall is: the number of a box, those of the open ones following; -1: nobody's.
 template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int axis, const Boundary<Dim>& boundary)
 {
-	const auto* box = boundary.holder(node.nearest, axis);
-	if (!box) box = boundary.holder(node.nearest, node.axis);
+	const auto* box = boundary.constrainingBox(node.nearest, axis);
+	if (!box) box = boundary.constrainingBox(node.nearest, node.axis);
 	if (box) return int(box - boundary.boxes().data());
 	const auto* open = boundary.opening(Grid<Dim>::index(node.nearest));
 	return open ? int(boundary.boxes().size() + (open - boundary.open().data())) : -1;

@@ -14,7 +14,7 @@ template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const Po
 
 /// A domain moves by averages over all of it, of which the part behind a wall counts as still: a middle that is carried
 /// to the wall could pass it, and would be alone behind it. One that has moved so since `before` moves by the functions
-/// of its position instead, which at the wall are those of held nodes.
+/// of its position instead, which at the wall are those of constrained nodes.
 template <int Dim> void keepBeforeWalls(PointCloud<Dim>&, const PointCloud<Dim>& before, const StepSystem<Dim>&, const Eigen::VectorXd& d);
 
 /// Adds the forces of their inertia in a step in time to the reactions, when the motion has taken it over.

@@ -57,7 +57,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	if (!balance(system, d, imbalance, report)) return report;
 	askForRefusals(system, d, report);
 	if (!report.converged()) return report;
-	// 4. accelerations there, and what holds the held nodes
+	// 4. accelerations there, and what holds the constrained nodes
 	report.reactions                     = reactions(system, Eigen::VectorXd(system.external + inertia.accelerate(imbalance)));
 	report.conjugateGradients.iterations = inertia.iterations();
 	report.times.linear.solve            = inertia.seconds();

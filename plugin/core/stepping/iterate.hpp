@@ -16,7 +16,7 @@ public:
 	void prepare()
 	{
 		const Stopwatch watch(report_.times.assembly);
-		system_.prepare(K, &beside);
+		system_.prepare(K, &couplingBlocks);
 		hasStiffness = false;
 	}
 
@@ -28,7 +28,8 @@ public:
 		// Where no stiffness is needed the iteration is about to end.
 		hasContributions_ = !withStiffness || !system_.map.isAlone();
 		failure           = system_.evaluate(
-		                  d, force, withStiffness ? &K : nullptr, hasContributions_ ? &absoluteContributions_ : nullptr, withStiffness ? &beside : nullptr);
+		                  d, force, withStiffness ? &K : nullptr, hasContributions_ ? &absoluteContributions_ : nullptr,
+                        withStiffness ? &couplingBlocks : nullptr);
 		balance = whole.of(d, force, absoluteContributions_);
 		if (failure || !std::isfinite(balance.size)) balance.size = std::numeric_limits<double>::infinity();
 	}
@@ -53,8 +54,8 @@ public:
 	}
 
 	WholeBalance<Dim>           whole;
-	NodeMatrix<Dim>             K;      ///< of the last evaluation with stiffness
-	Couplings                   beside; ///< K, of the same evaluation
+	NodeMatrix<Dim>             K;              ///< of the last evaluation with stiffness
+	Couplings                   couplingBlocks; ///< K, of the same evaluation
 	Eigen::VectorXd             force;
 	Balance                     balance;
 	std::optional<PointFailure> failure;

@@ -21,19 +21,20 @@ template <int Dim> template <class F> void LinearStep<Dim>::forFree(F&& f) const
 }
 
 template <int Dim>
-bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
+bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& couplingBlocks, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
 {
-	const Couplings* couplings = system_.isCoupled() ? &beside : nullptr;
+	const Couplings* couplings = system_.isCoupled() ? &couplingBlocks : nullptr;
 	step                       = Eigen::VectorXd::Zero(system_.map.size());
 	if (prescribes()) {
-		const Eigen::VectorXd held = forcesOf(prescribed_, K, beside);
+		const Eigen::VectorXd held = forcesOf(prescribed_, K, couplingBlocks);
 		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
 		step = prescribed_;
 		if (!system_.map.isAlone()) caused_ = held;
 		markPrescribedApplied();
 	}
 	if (system_.dofs.count == 0) return true;
-	const LinearProblem problem = system_.dofs.ties ? reduced(K, system_.dofs, couplings) : LinearProblem(K, system_.dofs, system_.share(), couplings);
+	const LinearProblem problem
+	        = system_.dofs.affineConstraints ? reduced(K, system_.dofs, couplings) : LinearProblem(K, system_.dofs, system_.ownedNodes(), couplings);
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();
@@ -54,12 +55,12 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 	return true;
 }
 
-template <int Dim> Eigen::VectorXd LinearStep<Dim>::forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& beside) const
+template <int Dim> Eigen::VectorXd LinearStep<Dim>::forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& couplingBlocks) const
 {
 	Eigen::VectorXd forces = Eigen::VectorXd::Zero(growth.size());
 	K.multiplyAdd(growth, forces);
-	if (system_.isCoupled()) beside.multiplyAdd(growth, forces);
-	system_.constraints.template fold<Dim>(system_.map, forces);
+	if (system_.isCoupled()) couplingBlocks.multiplyAdd(growth, forces);
+	system_.constraints.template condense<Dim>(system_.map, forces);
 	system_.completeForces(forces);
 	return forces;
 }
@@ -93,7 +94,7 @@ template <int Dim> double LinearStep<Dim>::product(const Eigen::VectorXd& step, 
 template <int Dim> void LinearStep<Dim>::addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const
 {
 	forFree([&](int i, int number, double scale) { step[i] += scale * correction[number]; });
-	system_.constraints.template spread<Dim>(system_.map, step);
+	system_.constraints.template distribute<Dim>(system_.map, step);
 }
 
 template class LinearStep<2>;

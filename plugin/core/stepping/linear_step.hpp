@@ -10,20 +10,20 @@ template <int Dim> class LinearStep {
 public:
 	LinearStep(const StepSystem<Dim>&, LinearSolver&, StepReport&);
 
-	/// Whether the next solve moves the held nodes to where they are prescribed.
+	/// Whether the next solve moves the constrained nodes to where they are prescribed.
 	bool prescribes() const { return prescribed_.size() > 0; }
 	void markPrescribedApplied() { prescribed_.resize(0); } ///< The iterate contains these displacements.
 
 	/// Forces on the free nodes if nothing but what is prescribed grew; of several fields only.
 	const Eigen::VectorXd& causedByPrescribed() const { return caused_; }
-	Eigen::VectorXd        causedBy(const Eigen::VectorXd& prescribed, const NodeMatrix<Dim>& K, const Couplings& beside) const
+	Eigen::VectorXd        causedBy(const Eigen::VectorXd& prescribed, const NodeMatrix<Dim>& K, const Couplings& couplingBlocks) const
 	{
-		return system_.map.isAlone() ? Eigen::VectorXd() : forcesOf(prescribed, K, beside);
+		return system_.map.isAlone() ? Eigen::VectorXd() : forcesOf(prescribed, K, couplingBlocks);
 	}
 
 	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver
 	/// may leave the part `forcing` of the right side. False where K is singular.
-	bool solve(const NodeMatrix<Dim>& K, const Couplings& beside, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
+	bool solve(const NodeMatrix<Dim>& K, const Couplings& couplingBlocks, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
 
 	/// The same with the factor that is kept.
 	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
@@ -38,7 +38,7 @@ public:
 private:
 	template <class F> void forFree(F&& f) const; // f(unknown, number, scale)
 
-	Eigen::VectorXd forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& beside) const;
+	Eigen::VectorXd forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& couplingBlocks) const;
 	Eigen::VectorXd withSigns(Eigen::VectorXd residual) const;
 
 	void addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;

@@ -4,8 +4,8 @@
 #include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/boundary_hold.hpp"
 #include "core/stepping/equilibrium.hpp"
+#include "core/stepping/lost_constraint.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -22,15 +22,15 @@ template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& sys
 	report.loosePoints   = loose.points;
 	report.loosePosition = loose.position;
 	if (loose.points == 0) return;
-	system.holdStill(loose.nodes, load);
+	system.fixNodes(loose.nodes, load);
 	report.dofs = system.dofs.count;
 }
 
 /// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
-template <int Dim> bool isHeld(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
+template <int Dim> bool isConstrained(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
-	const std::string lost = system.hasInertia() ? "" : lostHold(cloud, system.basis, system.model, load);
+	const std::string lost = system.hasInertia() ? "" : lostConstraint(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	report.parts           = held.parts;
 	keepStill(held.loose, system, load, report);
@@ -66,7 +66,7 @@ template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& syste
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
 {
 	Eigen::VectorXd d = system.map.isAlone() ? predict(last, system.basis.nodes, growth, system.model.grid) : expectedOfFields(system);
-	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
+	if (d.size() > 0) system.constraints.template distribute<Dim>(system.map, d);
 	return d;
 }
 
@@ -113,10 +113,10 @@ template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolve
 /// Of the nodes that are tied to none.
 template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system, const Eigen::VectorXd& d, double growth)
 {
-	if (system.basis.ties.empty()) return { system.basis.nodes, d, growth };
+	if (system.basis.affineConstraints.empty()) return { system.basis.nodes, d, growth };
 	LastIncrement<Dim> last { {}, Eigen::VectorXd(d.size()), growth };
 	for (int n = 0; n < int(system.basis.nodes.size()); ++n) {
-		if (system.basis.ties.contains(n)) continue;
+		if (system.basis.affineConstraints.contains(n)) continue;
 		last.displacement.template segment<Dim>(Dim * last.nodes.size()) = d.template segment<Dim>(Dim * n);
 		last.nodes.push_back(system.basis.nodes[n]);
 	}
@@ -133,7 +133,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const Halo halo(cloud, *model.division, [&] { return pointsForOthers(cloud, model); });
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	StepSystem<Dim> system(cloud, model, load, report);
-	if (!isHeld(system, cloud, load, report)) return report;
+	if (!isConstrained(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const bool            predicts   = last && !system.hasInertia();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
@@ -143,7 +143,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && system.map.isAlone() && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);
-		judge(rateChange(system, *last, load.growth(), prediction, d), report);
+		testError(rateChange(system, *last, load.growth(), prediction, d), report);
 	}
 	if (report.converged() && std::isfinite(model.newton.stepTolerance)) judgeFields(system, growth, report);
 	report.times.linear       = solver.times();
@@ -162,9 +162,9 @@ template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, 
 	StepReport            own, &report = told ? *told : own;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>       K;
-	Couplings             beside;
-	return tangent(system, K, beside, report) ? reduced(K, system.dofs, system.isCoupled() ? &beside : nullptr)
-	                                          : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
+	Couplings             couplingBlocks;
+	return tangent(system, K, couplingBlocks, report) ? reduced(K, system.dofs, system.isCoupled() ? &couplingBlocks : nullptr)
+	                                                  : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
 }
 
 template StepReport    loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);

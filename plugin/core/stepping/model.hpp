@@ -110,7 +110,7 @@ template <int Dim> struct Load {
 	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
 	double                    motion   = 0;               ///< duration of the step where something moves by its velocity [s]
 	double                    duration = 0;               ///< of the step, for laws that depend on it, in the time of the loads
-	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
+	std::map<int, Vec<Dim>>   boxMotion {}; ///< of the nodes constrained by boxes of the boundary, in the step, besides their displacement [m]
 
 	LoadFactor ofBox(int number) const
 	{

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/newton.hpp"
+#include "core/stepping/convergence_test.hpp"
 #include "core/stepping/ghost_share.hpp"
-#include "core/stepping/judge.hpp"
 #include "core/stepping/line_search.hpp"
 #include "core/stepping/linear_step.hpp"
 #include "core/stepping/outcome.hpp"
@@ -17,7 +17,7 @@ public:
 	NewtonResult run(const Eigen::VectorXd& prediction)
 	{
 		predicted_ = Start<Dim>(system_, iterate_, linear_).from(prediction, d_);
-		while (!judge_.ends(d_, solves_, !linear_.prescribes()) && correct())
+		while (!convergenceTest_.ends(d_, solves_, !linear_.prescribes()) && correct())
 			++solves_;
 		report_.iterations += solves_;
 		report_.reactions  = reactions(system_, iterate_.force);
@@ -30,8 +30,8 @@ private:
 	/// One solve and the step that it gives. False if the iteration has to end.
 	bool correct()
 	{
-		if (linear_.keepsFactor() && !watchdog_.isOpen() && judge_.convergence.isLastFactorEnough() && reuse()) return true;
-		if (judge_.convergence.isSlow() && system_.makeExact()) iterate_.prepare();
+		if (linear_.keepsFactor() && !watchdog_.isOpen() && convergenceTest_.convergence.isLastFactorEnough() && reuse()) return true;
+		if (convergenceTest_.convergence.isSlow() && system_.makeExact()) iterate_.prepare();
 		if (!iterate_.hasStiffness) iterate_.evaluate(d_, true);
 		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step
 		// would lose a part.
@@ -39,7 +39,7 @@ private:
 		NewtonStep next;
 		next.from       = d_;
 		next.sizeBefore = iterate_.balance.size;
-		if (!linear_.solve(iterate_.K, iterate_.beside, iterate_.balance.residual, judge_.convergence.forcing(), next.step)) {
+		if (!linear_.solve(iterate_.K, iterate_.couplingBlocks, iterate_.balance.residual, convergenceTest_.convergence.forcing(), next.step)) {
 			if (watchdog_.isOpen()) return goBack();
 			return !fail(report_, Failure::singular, "the stiffness matrix is singular to working precision");
 		}
@@ -47,9 +47,9 @@ private:
 		next.length = system_.map.displacements(next.step).template lpNorm<Eigen::Infinity>();
 		// Of several fields a matrix costs so much more than a residual that it is first seen whether it is
 		// needed.
-		iterate_.evaluate(d_ + next.step, system_.map.isAlone() && !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
+		iterate_.evaluate(d_ + next.step, system_.map.isAlone() && !convergenceTest_.convergence.isLastStiffness(linear_.keepsFactor()));
 		next.after = workOn(next.step), next.size = iterate_.balance.size;
-		if (judge_.staysInBalance(solves_)) {
+		if (convergenceTest_.staysInBalance(solves_)) {
 			// the whole had converged before, and the step is for a part of it: what is left of the whole
 			// says nothing of that
 		} else if (watchdog_.isOpen()) {
@@ -71,7 +71,7 @@ private:
 		const double    before = iterate_.balance.size;
 		if (!linear_.solveAgain(iterate_.balance.residual, step)) return false;
 		iterate_.evaluate(d_ + step, false);
-		if (!judge_.improves(d_ + step, solves_, before)) {
+		if (!convergenceTest_.improves(d_ + step, solves_, before)) {
 			linear_.dropFactor();
 			iterate_.evaluate(d_, true);
 			return false;
@@ -106,7 +106,7 @@ private:
 		iterate_.evaluate(d_, true);
 		const double length = best.length * step.length;
 		if (iterate_.balance.size < step.sizeBefore || length <= system_.model.grid.cellSize) return true;
-		report_.residuals.push_back(judge_.relative(solves_));
+		report_.residuals.push_back(convergenceTest_.relative(solves_));
 		return !fail(report_, Failure::diverging, causeOfDivergence(length));
 	}
 
@@ -115,7 +115,7 @@ private:
 	LinearStep<Dim>        linear_;
 	const NewtonSettings&  settings_ = system_.model.newton;
 	Iterate<Dim>           iterate_ { system_, report_ };
-	Judge<Dim>             judge_ { system_, iterate_, report_ };
+	ConvergenceTest<Dim>   convergenceTest_ { system_, iterate_, report_ };
 	Watchdog               watchdog_;
 	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.map.size());
 	int                    solves_    = 0;

@@ -59,10 +59,10 @@ template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& 
 	return system.inertia && system.inertia->isSingular() && fail(report, Failure::singular, "the mass matrix is singular to working precision");
 }
 
-template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& beside, StepReport& report)
+template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& couplingBlocks, StepReport& report)
 {
 	if (isObstructed(system, report)) return false;
-	const auto failure = system.tangent(K, &beside);
+	const auto failure = system.tangent(K, &couplingBlocks);
 	return !failure || !fail(report, *failure);
 }
 
@@ -83,7 +83,7 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 	std::vector<Vec3> sums(boundary.boxes().size(), Vec3::Zero());
 	for (int i = 0; i < system.nodalSize(); ++i) {
 		if (system.dofs.number[i] >= 0) continue;
-		const auto* box = boundary.holder(system.basis.nodes[i / Dim], i % Dim);
+		const auto* box = boundary.constrainingBox(system.basis.nodes[i / Dim], i % Dim);
 		if (!box) continue; // the node is tied to others, which have taken its force
 		sums[box - boundary.boxes().data()][i % Dim] += force[i] - system.external[i];
 	}
@@ -94,7 +94,7 @@ template <int Dim> Vec3 looseForce(const StepSystem<Dim>& system, const Eigen::V
 {
 	Vec3 sum = Vec3::Zero();
 	for (int i = 0; i < system.nodalSize(); ++i)
-		if (system.isStill(i / Dim) && !system.model.boundary.holder(system.basis.nodes[i / Dim], i % Dim))
+		if (system.isStill(i / Dim) && !system.model.boundary.constrainingBox(system.basis.nodes[i / Dim], i % Dim))
 			sum[i % Dim] += force[i] - system.external[i];
 	return sum;
 }

@@ -14,7 +14,7 @@ bool fail(StepReport&, const PointFailure&);
 template <int Dim> bool isObstructed(const StepSystem<Dim>&, StepReport&);
 
 /// The tangent as the step begins, of all nodes. False if there is none, and the report says why.
-template <int Dim> bool tangent(const StepSystem<Dim>&, NodeMatrix<Dim>&, Couplings& beside, StepReport&);
+template <int Dim> bool tangent(const StepSystem<Dim>&, NodeMatrix<Dim>&, Couplings& couplingBlocks, StepReport&);
 
 std::string causeOfStall(const Convergence&, double tolerance);
 std::string causeOfTooMany(const StepReport&, double tolerance, bool isWholeInBalance, int iterations);
@@ -27,7 +27,7 @@ template <int Dim> void reportWorst(const StepSystem<Dim>&, const Balance&, Step
 /// Of each of the boundary's boxes, from the sum of the terms [N].
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>&, const Eigen::VectorXd& force);
 
-/// With which nodes are held that no box of the boundary holds, as their points are loose [N].
+/// With which nodes are constrained that no box of the boundary holds, as their points are loose [N].
 template <int Dim> Vec3 looseForce(const StepSystem<Dim>&, const Eigen::VectorXd& force);
 
 } // namespace gimpm

@@ -118,9 +118,9 @@ public:
 		constexpr double step  = M_PI / 90;
 		const double     phi   = strength_.frictionAngle;
 		double           angle = M_PI / 4 + phi / 2;
-		if (strength_.cohesion == 0) return judge(first, inwards, foot, angle, worst);
+		if (strength_.cohesion == 0) return tryPlane(first, inwards, foot, angle, worst);
 		for (angle = phi + step; angle < M_PI / 2 - step; angle += step)
-			judge(first, inwards, foot, angle, worst);
+			tryPlane(first, inwards, foot, angle, worst);
 	}
 
 private:
@@ -133,14 +133,14 @@ private:
 		return foot == nothing ? outline_.bottom[first] : foot;
 	}
 
-	void judge(int first, int inwards, double foot, double angle, std::optional<PlaneSlip<Dim>>& worst) const
+	void tryPlane(int first, int inwards, double foot, double angle, std::optional<PlaneSlip<Dim>>& worst) const
 	{
 		const Block block = above({ first, inwards, 0, foot, std::tan(angle) });
 		if (!block.isFree || block.strips == 0) return;
 		const double length = block.run / std::cos(angle) * outline_.across();
 		const double work   = block.volume * unitWeight_ * std::sin(angle - strength_.frictionAngle);
 		const double bound = strength_.cohesion * std::cos(strength_.frictionAngle) * length, excess = work / bound;
-		if (!(excess > 1) || (worst && excess <= worst->excess) || isHeld(block) || !isFilled(block)) return;
+		if (!(excess > 1) || (worst && excess <= worst->excess) || isConstrained(block) || !isFilled(block)) return;
 		PlaneSlip<Dim> slip { -foot * down_, axis_, outline_.topAt(first) - foot, angle, excess };
 		slip.foot[axis_] = outline_.begin(inwards > 0 ? first : first + 1);
 		worst            = slip;
@@ -166,7 +166,7 @@ private:
 	}
 
 	/// Whether any node that the block can reach, above the plane, is held along or across the face.
-	bool isHeld(const Block& block) const
+	bool isConstrained(const Block& block) const
 	{
 		const int    up = Outline<Dim>::axisOf(down_);
 		const double h = grid_.cellSize, begin = outline_.begin(block.inwards > 0 ? block.first : block.first + 1);

@@ -21,11 +21,12 @@ template <int Dim> struct PlaneSlip {
 	double   excess = 0; ///< work of the weight over what the cohesion on the plane can dissipate; infinite without cohesion
 };
 
-/// The slip with the largest excess (Coulomb 1776): the soil above the plane moves as a block, at the angle of
-/// friction with the plane. Where the excess is above one nothing can be in equilibrium (upper bound theorem, Drucker,
-/// Prager and Greenberg 1952), whatever the dilation is, with which soil bears no more than with that of the theorem
+/// The slip with the largest excess (Coulomb 1776): the soil above the plane moves as a block, at the angle of friction
+/// with the plane. Where the excess is above one nothing can be in equilibrium (upper bound theorem, Drucker, Prager
+/// and Greenberg 1952), whatever the dilation is, with which soil bears no more than with that of the theorem
 /// (Radenkovic 1961). Left out, so that it is a bound from above: faces lower than nine tenths of a cell, blocks with
-/// held nodes, with cavities or with other materials in them, and in space faces that do not go all across the body.
+/// constrained nodes, with cavities or with other materials in them, and in space faces that do not go all across the
+/// body.
 ///
 /// `strength`: by material, nothing of those that have another law; where points differ, the largest of all. `weight`:
 /// of each point [N]. `down`: of gravity, a unit vector along an axis.

@@ -40,9 +40,9 @@ public:
 		else
 			for (const auto& patch : basis.patches)
 				join(patch, grid);
-		for (std::size_t t = 0; t < basis.ties.node.size(); ++t)
-			for (int m = basis.ties.start[t]; m < basis.ties.start[t + 1]; ++m)
-				join(basis.ties.node[t], basis.ties.master[m], Index<Dim>::Zero());
+		for (std::size_t t = 0; t < basis.affineConstraints.node.size(); ++t)
+			for (int m = basis.affineConstraints.start[t]; m < basis.affineConstraints.start[t + 1]; ++m)
+				join(basis.affineConstraints.node[t], basis.affineConstraints.master[m], Index<Dim>::Zero());
 		for (std::size_t n = 0; n < parent_.size(); ++n)
 			std::tie(parent_[n], offset_[n]) = find(int(n));
 		for (Turn& turn : turns_)
@@ -114,12 +114,12 @@ template <int Dim> struct Part {
 	Vec<Dim> sum   = Vec<Dim>::Zero(); // of node positions, in cells
 	int      nodes = 0, points = 0;
 	double   reach = 1;            // largest distance of a node from the centre, in cells
-	Gram     gram  = Gram::Zero(); // of the rigid modes' values at the held degrees of freedom
+	Gram     gram  = Gram::Zero(); // of the rigid modes' values at the constrained degrees of freedom
 
 	Vec<Dim> centre() const { return sum / nodes; }
 
 	/// What resists a displacement in this direction at this position.
-	void hold(const Vec<Dim>& position, const Vec<Dim>& direction)
+	void constrain(const Vec<Dim>& position, const Vec<Dim>& direction)
 	{
 		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();
 		for (int a = 0; a < Dim; ++a)
@@ -232,7 +232,7 @@ template <int Dim> void countPoints(const CloudBasis<Dim>& basis, const Parts<Di
 /// `holds(term, hold)` tells what a term holds.
 template <int Dim, class F>
 Restraint restraintBy(
-        const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division, F&& holds)
+        const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division, F&& constrains)
 {
 	const Parts<Dim>         parts(basis, grid, !division.isWhole());
 	std::map<int, Part<Dim>> found;
@@ -246,14 +246,15 @@ Restraint restraintBy(
 		part.reach      = std::max(part.reach, (parts.location(n) - part.centre()).norm());
 	}
 	countPoints(basis, parts, division, found);
-	const auto hold = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& position) {
-		found[parts.root(n)].hold(parts.location(n) + position, direction);
+	const auto constrain = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& position) {
+		found[parts.root(n)].constrain(parts.location(n) + position, direction);
 	};
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (!basis.ties.contains(int(n)) && boundary.holder(basis.nodes[n], a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+			if (!basis.affineConstraints.contains(int(n)) && boundary.constrainingBox(basis.nodes[n], a))
+				constrain(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 	for (const auto& term : terms)
-		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& position) { hold(n, direction.normalized(), position); });
+		constrains(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& position) { constrain(n, direction.normalized(), position); });
 	for (auto& [root, part] : found)
 		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())
@@ -295,7 +296,7 @@ public:
 		LoosePoints result;
 		if (small_.empty() || std::find(ofLarge_.begin(), ofLarge_.end(), 1) == ofLarge_.end()) return result;
 		for (const auto& [group, nodes] : small_) {
-			const Part<Dim> part = heldPart(nodes, boundary, terms);
+			const Part<Dim> part = constrainedPart(nodes, boundary, terms);
 			if (describe(part, grid_).empty()) continue;
 			if (result.points == 0) result.position = placeOf(part, grid_);
 			result.points += points_.at(group);
@@ -320,7 +321,7 @@ private:
 	Vec<Dim> position(int node) const { return Grid<Dim>::index(basis_.nodes[node]).template cast<double>(); }
 
 	/// With what holds it, nodes of large groups among that.
-	Part<Dim> heldPart(const std::set<int>& nodes, const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
+	Part<Dim> constrainedPart(const std::set<int>& nodes, const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
 	{
 		Part<Dim> part;
 		for (const int n : nodes)
@@ -329,10 +330,10 @@ private:
 			part.reach = std::max(part.reach, (position(n) - part.centre()).norm());
 		for (const int n : nodes)
 			for (int a = 0; a < Dim; ++a)
-				if (ofLarge_[n] || boundary.holder(basis_.nodes[n], a)) part.hold(position(n), Vec<Dim>::Unit(a));
+				if (ofLarge_[n] || boundary.constrainingBox(basis_.nodes[n], a)) part.constrain(position(n), Vec<Dim>::Unit(a));
 		for (const auto& term : terms)
 			term->restrain([&](int n, const Vec<Dim>& direction, const Vec<Dim>& inCell) {
-				if (nodes.count(n)) part.hold(position(n) + inCell, direction.normalized());
+				if (nodes.count(n)) part.constrain(position(n) + inCell, direction.normalized());
 			});
 		if (grid_.axisymmetric) part.encircle();
 		return part;
@@ -351,7 +352,8 @@ private:
 template <int Dim>
 Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division)
 {
-	return restraintBy(basis, grid, boundary, terms, division, [](Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
+	return restraintBy(
+	        basis, grid, boundary, terms, division, [](Term<Dim>& term, const typename Term<Dim>::Constrain& constrain) { term.restrain(constrain); });
 }
 
 template <int Dim>
@@ -359,13 +361,15 @@ Restraint restraintAt(
         const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms,
         const Division& division)
 {
-	return restraintBy(basis, grid, boundary, terms, division, [&](Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	return restraintBy(basis, grid, boundary, terms, division, [&](Term<Dim>& term, const typename Term<Dim>::Constrain& constrain) {
+		term.restrainAt(d, constrain);
+	});
 }
 
 template <int Dim>
 LoosePoints hinged(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division)
 {
-	if (!division.isWhole() || grid.isPeriodic() || !basis.leafOf.empty() || !basis.ties.empty()) return {};
+	if (!division.isWhole() || grid.isPeriodic() || !basis.leafOf.empty() || !basis.affineConstraints.empty()) return {};
 	return Hinges<Dim>(basis, grid).loose(boundary, terms);
 }
 

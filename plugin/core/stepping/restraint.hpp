@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether the held nodes, the terms and, in a periodic grid, its own images keep every connected part of the body from
-// moving as a rigid body.
+// Whether the constrained nodes, the terms and, in a periodic grid, its own images keep every connected part of the
+// body from moving as a rigid body.
 #pragma once
 #include "core/terms/term.hpp"
 #include <string>

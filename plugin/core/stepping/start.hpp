@@ -48,14 +48,14 @@ private:
 		const double fromZero = iterate_.balance.size;
 		for (int i = 0; i < prediction.size(); ++i)
 			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
-		system_.constraints.template spread<Dim>(system_.map, prediction);
+		system_.constraints.template distribute<Dim>(system_.map, prediction);
 		iterate_.evaluate(prediction, true);
 		if (!(iterate_.balance.size < toleratedStart * fromZero)) {
 			iterate_.evaluate(d, true);
 			return false;
 		}
 		d = std::move(prediction);
-		if (linear_.prescribes()) iterate_.enter(linear_.causedBy(held, iterate_.K, iterate_.beside));
+		if (linear_.prescribes()) iterate_.enter(linear_.causedBy(held, iterate_.K, iterate_.couplingBlocks));
 		linear_.markPrescribedApplied();
 		return true;
 	}

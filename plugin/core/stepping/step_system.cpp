@@ -72,13 +72,13 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		mapFields();
 		external = Eigen::VectorXd::Zero(map.size());
 		addPointForces(basis, pointForces(cloud, model, load), external);
-		constraints.template fold<Dim>(map, external);
+		constraints.template condense<Dim>(map, external);
 	}
 	faces = stabilise(stiffnessOf_, model, boundary, basis, report);
 	const Stopwatch watch(report.times.basis);
-	share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, *model.division);
-	gimpm::complete(share_->knownNodes(), map, external);
-	holdNodes(load);
+	owned_ = std::make_unique<OwnedParts<Dim>>(*model.processes, basis, faces, *model.division);
+	gimpm::complete(owned_->knownNodes(), map, external);
+	constrainNodes(load);
 	makeTerms(load);
 	report.nodes              = int(basis.nodes.size());
 	report.dofs               = dofs.count;
@@ -93,50 +93,50 @@ template <int Dim> void StepSystem<Dim>::mapFields()
 	for (const auto& other : model.fields)
 		fields.push_back(other.field);
 	map = DofMap(int(basis.nodes.size()), std::move(fields));
-	constraints.reset(map, basis.ties);
+	constraints.reset(map, basis.affineConstraints);
 	before_.resize(map.fields());
 }
 
-template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
+template <int Dim> void StepSystem<Dim>::constrainNodes(const Load<Dim>& load)
 {
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
-			if (basis.ties.contains(int(n))) continue;
-			if (!isStill_.empty() && isStill_[n]) constraints.hold(int(Dim * n + a), 0);
-			else if (const auto* box = model.boundary.holder(basis.nodes[n], a)) {
+			if (basis.affineConstraints.contains(int(n))) continue;
+			if (!isStill_.empty() && isStill_[n]) constraints.prescribe(int(Dim * n + a), 0);
+			else if (const auto* box = model.boundary.constrainingBox(basis.nodes[n], a)) {
 				const int    number = int(box - model.boundary.boxes().data());
 				const auto   moves  = load.boxMotion.find(number);
 				const double motion = moves == load.boxMotion.end() ? 0 : moves->second[a];
-				constraints.hold(int(Dim * n + a), load.ofBox(number).growth * box->displacement[a] + motion);
+				constraints.prescribe(int(Dim * n + a), load.ofBox(number).growth * box->displacement[a] + motion);
 			} else
 				constraints.free(int(Dim * n + a));
 		}
 	for (int f = 1; f < map.fields(); ++f)
-		holdField(f, model.fields[f - 1].begin(cloud_, basis, model.grid));
-	constraints.template spread<Dim>(map, constraints.prescribed);
+		constrainField(f, model.fields[f - 1].begin(cloud_, basis, model.grid));
+	constraints.template distribute<Dim>(map, constraints.prescribed);
 	if (!map.isAlone()) ofDisplacements_ = constraints.ofDisplacements(map);
 }
 
-template <int Dim> void StepSystem<Dim>::holdStill(const std::vector<int>& nodes, const Load<Dim>& load)
+template <int Dim> void StepSystem<Dim>::fixNodes(const std::vector<int>& nodes, const Load<Dim>& load)
 {
 	isStill_.assign(basis.nodes.size(), false);
 	for (const int node : nodes)
 		isStill_[node] = true;
-	constraints.reset(map, basis.ties);
-	holdNodes(load);
+	constraints.reset(map, basis.affineConstraints);
+	constrainNodes(load);
 }
 
-template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& start)
+template <int Dim> void StepSystem<Dim>::constrainField(int field, const FieldStart& start)
 {
 	Eigen::VectorXd before = Eigen::VectorXd::Zero(map.size());
 	map.of(field, before)  = start.before;
-	gimpm::complete(share_->knownNodes(), map, before); // what may be a sum over points
-	constraints.template spread<Dim>(map, before);
+	gimpm::complete(owned_->knownNodes(), map, before); // what may be a sum over points
+	constraints.template distribute<Dim>(map, before);
 	before_[field] = map.of(field, before);
 	for (int n = 0; n < map.nodes(); ++n)
-		for (int i = map.at(field, n); i < map.at(field, n + 1) && !basis.ties.contains(n); ++i)
+		for (int i = map.at(field, n); i < map.at(field, n + 1) && !basis.affineConstraints.contains(n); ++i)
 			if (const auto given = start.given.find(i - map.begin(field)); given != start.given.end())
-				constraints.hold(i, given->second - before[i]);
+				constraints.prescribe(i, given->second - before[i]);
 			else
 				constraints.free(i);
 }
@@ -144,12 +144,12 @@ template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& 
 /// The terms that processes share.
 template <int Dim> void StepSystem<Dim>::resistPoints()
 {
-	const auto& colours = share_->colours();
+	const auto& colours = owned_->colours();
 	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, colours, points, model.materials));
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
 	isStabilised_ = !faces.empty();
-	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostReference));
+	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(owned_->faces(), model.grid.cellSize, ghostReference));
 }
 
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
@@ -163,7 +163,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		for (const auto& term : terms)
 			term->addBefore(resistance);
 		if (isCoupled()) addCoupledBefore(resistance);
-		share().complete(resistance);
+		ownedNodes().complete(resistance);
 		complete(before);
 		return Eigen::VectorXd(before - resistance);
 	};
@@ -187,30 +187,30 @@ template <int Dim> std::string StepSystem<Dim>::obstacle() const
 	return "";
 }
 
-template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K, Couplings* beside) const
+template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K, Couplings* couplingBlocks) const
 {
-	K.reset(basis.nodes, isSymmetric(), model.grid, share().range());
+	K.reset(basis.nodes, isSymmetric(), model.grid, ownedNodes().range());
 	for (const auto& term : terms)
 		term->mark(K);
-	if (!beside || !isCoupled()) return;
-	beside->reset(map, isSymmetric());
+	if (!couplingBlocks || !isCoupled()) return;
+	couplingBlocks->reset(map, isSymmetric());
 	for (const auto* term : coupled_)
-		term->markCouplings(*beside);
+		term->markCouplings(*couplingBlocks);
 }
 
 template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 {
 	NodeMatrix<Dim> K;
-	Couplings       beside;
-	tangent(K, &beside);
-	return reduced(K, dofs, isCoupled() ? &beside : nullptr);
+	Couplings       couplingBlocks;
+	tangent(K, &couplingBlocks);
+	return reduced(K, dofs, isCoupled() ? &couplingBlocks : nullptr);
 }
 
-template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* beside) const
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks) const
 {
 	Eigen::VectorXd force;
-	prepare(K, beside);
-	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, beside);
+	prepare(K, couplingBlocks);
+	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, couplingBlocks);
 }
 
 template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const
@@ -224,13 +224,13 @@ template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const E
 /// The other terms first: where points fail there is no state to couple.
 template <int Dim>
 std::optional<PointFailure> StepSystem<Dim>::addCoupled(
-        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* couplingBlocks) const
 {
 	const State at     = state(d);
 	auto        forces = map.zeros(), parts = forces;
-	if (beside) beside->setZero();
+	if (couplingBlocks) couplingBlocks->setZero();
 	auto                failure = addTerms(at.displacements(), { forces[0], K, absoluteContributions ? &parts[0] : nullptr });
-	const FieldSum<Dim> sum { forces, parts, K, beside };
+	const FieldSum<Dim> sum { forces, parts, K, couplingBlocks };
 	for (auto term = coupled_.begin(); term != coupled_.end() && !failure; ++term)
 		failure = (*term)->addCoupled(at, sum);
 	force = map.joined(forces);
@@ -249,16 +249,16 @@ template <int Dim> void StepSystem<Dim>::addCoupledBefore(Eigen::VectorXd& resis
 
 template <int Dim>
 std::optional<PointFailure> StepSystem<Dim>::evaluate(
-        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* couplingBlocks) const
 {
 	force = Eigen::VectorXd::Zero(map.size());
 	if (K) K->setZero();
 	if (absoluteContributions) *absoluteContributions = force;
 	std::optional<PointFailure> failure
-	        = isCoupled() ? addCoupled(d, force, K, absoluteContributions, beside) : addTerms(d, { force, K, absoluteContributions });
-	constraints.template fold<Dim>(map, force);
-	if (absoluteContributions) constraints.template fold<Dim>(map, *absoluteContributions);
-	failure = share_->firstOf(failure);
+	        = isCoupled() ? addCoupled(d, force, K, absoluteContributions, couplingBlocks) : addTerms(d, { force, K, absoluteContributions });
+	constraints.template condense<Dim>(map, force);
+	if (absoluteContributions) constraints.template condense<Dim>(map, *absoluteContributions);
+	failure = owned_->firstOf(failure);
 	completeForces(force); // those of a failure are reported, by all alike
 	if (absoluteContributions && !failure) completeForces(*absoluteContributions);
 	return failure;
@@ -275,7 +275,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::sumOf(std::size_t first, std
 /// Forces of tied nodes are given to their masters, and each process gets the rows of the others.
 template <int Dim> Eigen::VectorXd StepSystem<Dim>::completed(Eigen::VectorXd force) const
 {
-	constraints.template fold<Dim>(map, force);
+	constraints.template condense<Dim>(map, force);
 	completeForces(force);
 	return force;
 }
@@ -330,7 +330,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 			term->addCoupledRoundOff(state(d), blocks);
 		absoluteContributions = map.joined(blocks);
 	}
-	constraints.template fold<Dim>(map, absoluteContributions);
+	constraints.template condense<Dim>(map, absoluteContributions);
 	if (isCoupled()) completeForces(absoluteContributions);
 	return absoluteContributions;
 }

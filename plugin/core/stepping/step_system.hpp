@@ -4,8 +4,8 @@
 #include "core/fields/shared_fields.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/stepping/model.hpp"
+#include "core/stepping/owned_parts.hpp"
 #include "core/stepping/report.hpp"
-#include "core/stepping/share.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/points/internal_force.hpp"
 
@@ -36,7 +36,7 @@ template <int Dim> struct StepSystem {
 	Eigen::VectorXd        inertialPredictor; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	/// None of them moves, whatever holds them or not; before Newton's method.
-	void holdStill(const std::vector<int>& nodes, const Load<Dim>&);
+	void fixNodes(const std::vector<int>& nodes, const Load<Dim>&);
 	bool isStill(int node) const { return !isStill_.empty() && isStill_[node]; }
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements
@@ -53,24 +53,24 @@ template <int Dim> struct StepSystem {
 	std::optional<FieldGrowth> expected() const;
 
 	/// Rows of the nodes that this process assembles.
-	const NodeShare& share() const { return share_->nodes(); }
+	const OwnedNodes& ownedNodes() const { return owned_->nodes(); }
 
 	/// Why the system cannot be solved as it is asked for, a clause; empty if it can.
 	std::string obstacle() const;
 
 	/// Sets K up for evaluate(), and what is beside it: pattern and zeros.
-	void prepare(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const;
+	void prepare(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const;
 
 	/// Reduced tangent of all terms at the start of the step.
 	LinearProblem               tangent() const;
-	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
+	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const; ///< of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the absolute contributions of the forces where they are
 	/// given. Of K only the share is right, rows and columns. Forces at tied nodes are given to their masters; of K
-	/// that is left to whoever reduces it. `beside` goes with K.
+	/// that is left to whoever reduces it. `couplingBlocks` goes with K.
 	std::optional<PointFailure> evaluate(
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions = nullptr,
-	        Couplings* beside = nullptr) const;
+	        Couplings* couplingBlocks = nullptr) const;
 
 	/// Of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
 	Eigen::VectorXd ghostForce(const Eigen::VectorXd& d) const { return sumOf(1, isStabilised_, d); }
@@ -83,10 +83,10 @@ template <int Dim> struct StepSystem {
 	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
 
 	/// The sums of the points around nodes, which each process knows of the nodes around which it has all points.
-	void complete(Eigen::VectorXd& nodal) const { share_->knownNodes().complete(nodal); }
+	void complete(Eigen::VectorXd& nodal) const { owned_->knownNodes().complete(nodal); }
 
 	/// Of forces at all unknowns each process knows the rows that it assembles, and then all.
-	void completeForces(Eigen::VectorXd& all) const { gimpm::complete(share(), map, all); }
+	void completeForces(Eigen::VectorXd& all) const { gimpm::complete(ownedNodes(), map, all); }
 
 	/// Whether this process is the one that counts the points of the patch, of those that have them.
 	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }
@@ -105,14 +105,14 @@ template <int Dim> struct StepSystem {
 	StepContext<Dim> context() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
-		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, share_->knownNodes(), *model.division };
+		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, owned_->knownNodes(), *model.division };
 	}
 
 private:
 	const PointCloud<Dim>&           cloud_;
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
-	std::unique_ptr<Share<Dim>>      share_;
+	std::unique_ptr<OwnedParts<Dim>> owned_;
 	/// The fields as the step begins; displacements are those of the step.
 	std::vector<Eigen::VectorXd>   before_;
 	Constraints                    ofDisplacements_;      ///< where there are other fields
@@ -125,13 +125,13 @@ private:
 	void                        mapFields();
 	void                        makeTerms(const Load<Dim>&);
 	void                        resistPoints();
-	void                        holdNodes(const Load<Dim>&);
-	void                        holdField(int field, const FieldStart&);
+	void                        constrainNodes(const Load<Dim>&);
+	void                        constrainField(int field, const FieldStart&);
 	void                        addCoupledBefore(Eigen::VectorXd& resistance) const;
 	Eigen::VectorXd             completed(Eigen::VectorXd force) const;
 	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>&) const;
 	std::optional<PointFailure> addCoupled(
-	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* beside) const;
+	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions, Couplings* couplingBlocks) const;
 };
 
 } // namespace gimpm

@@ -280,7 +280,7 @@ template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(c
 {
 	if (!system_) return std::nullopt;
 	const EnergySum at = system_->energyAt(equilibrium(state.displacements()));
-	spread(at, sum);
+	distribute(at, sum);
 	if (!sum.couplings) return std::nullopt;
 	const Eigen::MatrixXd K = system_->condensed(at);
 	forJoined([&](int v, int w, int a, int b, double weight) {
@@ -291,7 +291,7 @@ template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(c
 }
 
 /// Forces on the soil at the nodes around the vertices.
-template <int Dim> void StructureForce<Dim>::spread(const EnergySum& at, const FieldSum<Dim>& sum) const
+template <int Dim> void StructureForce<Dim>::distribute(const EnergySum& at, const FieldSum<Dim>& sum) const
 {
 	for (std::size_t v = 0; v < attached_.size(); ++v) {
 		const int first = system_->soilUnknown(int(v));
@@ -316,7 +316,7 @@ template <int Dim> EnergySum StructureForce<Dim>::asItBegins() const
 
 template <int Dim> void StructureForce<Dim>::addCoupledBefore(const State&, const FieldSum<Dim>& sum) const
 {
-	if (system_) spread(asItBegins(), sum);
+	if (system_) distribute(asItBegins(), sum);
 }
 
 template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
@@ -339,7 +339,7 @@ template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd
 
 /// A beam that is held at an end holds the soil around it, and one that parts the soil holds each side as if the other
 /// stood still.
-template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
 	if (!structure_.beam || !system_) return;
 	const Beam& beam = *structure_.beam;
@@ -347,7 +347,7 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 		if (position >= int(beam.positions.size()) && position < structure_.vertices()) continue; // of a bar
 		if (position >= structure_.vertices() + int(beam.positions.size())) break;                // of bonds
 		for (int a = 0; a < Dim && system_->soilUnknown(position) >= 0; ++a)
-			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[position]->node[0], Vec<Dim>::Unit(a), attached_[position]->inCell());
+			if (beam.fixedHead[a] || beam.fixedFoot[a]) constrain(attached_[position]->node[0], Vec<Dim>::Unit(a), attached_[position]->inCell());
 	}
 	if constexpr (Dim == 2)
 		for (int v = 0; v < int(beam.positions.size()); ++v)
@@ -355,8 +355,8 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 				const int other = structure_.vertices() + v, position = side == 0 ? v : other;
 				if (other >= int(attached_.size()) || system_->soilUnknown(other) < 0 || beam.sides[side].gap[v] > 0) continue;
 				const Vec<2> t = beam.tangentAt(v);
-				hold(attached_[position]->node[0], Vec<2>(-t[1], t[0]), attached_[position]->inCell());
-				if (beam.adhesion > 0 || beam.friction > 0) hold(attached_[position]->node[0], t, attached_[position]->inCell());
+				constrain(attached_[position]->node[0], Vec<2>(-t[1], t[0]), attached_[position]->inCell());
+				if (beam.adhesion > 0 || beam.friction > 0) constrain(attached_[position]->node[0], t, attached_[position]->inCell());
 			}
 }
 

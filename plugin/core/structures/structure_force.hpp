@@ -20,7 +20,7 @@ public:
 	void                        commitCoupled(const State&) override;
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) override;
-	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
 	Refusal                     refusal(const Eigen::VectorXd& d) override;
 
 private:
@@ -34,7 +34,7 @@ private:
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd           equilibrium(const Eigen::VectorXd& d) const;
 	EnergySum                 asItBegins() const;
-	void                      spread(const EnergySum&, const FieldSum<Dim>&) const;
+	void                      distribute(const EnergySum&, const FieldSum<Dim>&) const;
 	template <class F> void   forVertices(F&& f) const;
 	template <class F> void   forJoined(F&& f) const;
 

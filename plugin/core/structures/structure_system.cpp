@@ -112,12 +112,12 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 	for (int v = 0; v <= last - beam.isClosed; ++v) {
 		const bool isEnd = (v == 0 || v == last) && !beam.isClosed;
 		for (int i = 0; i < 3; ++i) {
-			const bool isHinge = i == 2 && beam.isHinge[v];
-			const bool isHeld  = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
+			const bool isHinge       = i == 2 && beam.isHinge[v];
+			const bool isConstrained = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
 			// A hinge at an end of a beam leaves the turn of that end without meaning; one of a shell
 			// lets it go.
 			const bool isIdle = isEnd && isHinge && !beam.isShell;
-			if ((!isHeld || (isHinge && beam.isShell)) && !isIdle && !(beam.isOnAxis(v) && i != 1)) stations_[v].own[i] = unknowns_++;
+			if ((!isConstrained || (isHinge && beam.isShell)) && !isIdle && !(beam.isOnAxis(v) && i != 1)) stations_[v].own[i] = unknowns_++;
 		}
 		if (beam.isShell && beam.isHinge[v] && !isEnd) stations_[v].turnBehind = unknowns_++;
 	}

@@ -37,15 +37,15 @@ std::vector<char> tiesOfIllFilled(
 	constexpr double                alike  = 1e-6;
 	const auto                      filled = filling(basis, stiffnessOf, grid);
 	std::vector<std::array<int, 2>> cells;
-	std::vector<char>               isHeld(filled.size()), ties(faces.size(), 0);
+	std::vector<char>               isConstrained(filled.size()), ties(faces.size(), 0);
 	for (const auto& face : faces)
 		cells.push_back(cellsAt(face, basis, grid));
 	for (std::size_t i = 0; i < filled.size(); ++i)
-		isHeld[i] = filled[i] >= threshold;
+		isConstrained[i] = filled[i] >= threshold;
 	const auto forReached = [&](auto&& f) { // f(face, cell that is not held, one beside it that is)
 		for (std::size_t i = 0; i < faces.size(); ++i)
 			for (const int side : { 0, 1 })
-				if (!isHeld[cells[i][side]] && isHeld[cells[i][1 - side]]) f(i, cells[i][side], cells[i][1 - side]);
+				if (!isConstrained[cells[i][side]] && isConstrained[cells[i][1 - side]]) f(i, cells[i][side], cells[i][1 - side]);
 	};
 	for (bool goesOn = true; goesOn;) {
 		std::vector<double> best(filled.size(), 0);
@@ -55,10 +55,10 @@ std::vector<char> tiesOfIllFilled(
 		});
 		goesOn = false;
 		for (std::size_t i = 0; i < filled.size(); ++i)
-			if (best[i] > 0) isHeld[i] = 1, goesOn = true;
+			if (best[i] > 0) isConstrained[i] = 1, goesOn = true;
 	}
 	for (std::size_t i = 0; i < faces.size(); ++i)
-		ties[i] = ties[i] || !isHeld[cells[i][0]] || !isHeld[cells[i][1]];
+		ties[i] = ties[i] || !isConstrained[cells[i][0]] || !isConstrained[cells[i][1]];
 	return ties;
 }
 

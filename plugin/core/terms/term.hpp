@@ -4,7 +4,7 @@
 #include "core/base/failure.hpp"
 #include "core/grid/cloud_basis.hpp"
 #include "core/parallel/division.hpp"
-#include "core/parallel/node_share.hpp"
+#include "core/parallel/owned_nodes.hpp"
 #include "core/solvers/node_matrix.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/cell_moduli.hpp"
@@ -74,13 +74,13 @@ public:
 	/// with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) { return 0; }
 
-	/// Calls hold(node, direction, position) for what keeps the body from moving there, however softly; the
+	/// Calls constrain(node, direction, position) for what keeps the body from moving there, however softly; the
 	/// position is given from the node on [cells].
-	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& position)>;
-	virtual void restrain(const Hold&) { }
+	using Constrain = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& position)>;
+	virtual void restrain(const Constrain&) { }
 
 	/// The same for what still keeps it at d, as friction does until it slips.
-	virtual void restrainAt(const Eigen::VectorXd&, const Hold& hold) { restrain(hold); }
+	virtual void restrainAt(const Eigen::VectorXd&, const Constrain& constrain) { restrain(constrain); }
 
 	/// Why equilibrium with these displacements cannot be accepted.
 	virtual Refusal refusal(const Eigen::VectorXd&) { return {}; }
@@ -113,12 +113,12 @@ template <int Dim> struct StepContext {
 	const PointStiffness&              stiffnessOf; ///< while a term is made
 	const std::vector<GhostFace<Dim>>& faces;
 	const FreeDofs&                    dofs;
-	/// Increments of the held degrees of freedom, zero elsewhere [m].
+	/// Increments of the constrained degrees of freedom, zero elsewhere [m].
 	const Eigen::VectorXd& prescribed;
 	const std::function<Eigen::VectorXd()>&
-	                 imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
-	const NodeShare& share;     ///< the nodes around which this process knows all points; what is summed over points is completed by it
-	const Division&  division;  ///< of the points among processes, of which this one has its own and copies
+	                  imbalance;  ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
+	const OwnedNodes& ownedNodes; ///< the nodes around which this process knows all points; what is summed over points is completed by it
+	const Division&   division;   ///< of the points among processes, of which this one has its own and copies
 };
 
 /// Makes a term for a step.

@@ -35,38 +35,38 @@ template <int Dim>
 WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, const Division& division)
         : wall_(wall)
 {
-	std::vector<char> isHeld(basis.cells.size(), 0);
+	std::vector<char> isConstrained(basis.cells.size(), 0);
 	std::vector<int>  cells;
 	for (int i = 0; i < int(wall.surface.pieces.size()); ++i) {
 		const Vec<Dim> centre = centreOf(wall.surface, wall.surface.pieces[i]),
 		               normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
 		const auto at         = attach(centre, basis, grid, wall.layer);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
-		heldPieces_.push_back({ i, *at, aroundAxis(centre[0], grid) * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
+		constrainedPieces_.push_back({ i, *at, aroundAxis(centre[0], grid) * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
 		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell), 0, std::max(0, wall.layer))));
-		isHeld[cells.back()] = 1;
+		isConstrained[cells.back()] = 1;
 	}
-	auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);
+	auto moduli = cellModuli(isConstrained, basis, stiffnessOf, grid);
 	division.complete(basis.cells, moduli);
-	for (std::size_t g = 0; g < heldPieces_.size(); ++g)
-		heldPieces_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
+	for (std::size_t g = 0; g < constrainedPieces_.size(); ++g)
+		constrainedPieces_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
 }
 
 /// On the body.
-template <int Dim> Vec<Dim> WallForce<Dim>::tractionOn(const HeldPiece& piece, const Eigen::VectorXd& d) const
+template <int Dim> Vec<Dim> WallForce<Dim>::tractionOn(const ConstrainedPiece& piece, const Eigen::VectorXd& d) const
 {
 	return wall_.tractions[piece.piece] - piece.stiffness * (piece.held * (piece.at.displacement(d) - wall_.motion));
 }
 
 template <int Dim> void WallForce<Dim>::mark(NodeMatrix<Dim>& K) const
 {
-	for (const HeldPiece& piece : heldPieces_)
+	for (const ConstrainedPiece& piece : constrainedPieces_)
 		markAttached(piece.at, piece.at, K);
 }
 
 template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
-	for (const HeldPiece& piece : heldPieces_) {
+	for (const ConstrainedPiece& piece : constrainedPieces_) {
 		addAttachedForce<Dim>(piece.at, piece.area * tractionOn(piece, d), sum);
 		if (sum.K) addAttachedStiffness<Dim>(piece.at, piece.at, -piece.area * piece.stiffness * piece.held, *sum.K);
 	}
@@ -75,28 +75,28 @@ template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::
 
 template <int Dim> void WallForce<Dim>::addBefore(Eigen::VectorXd& force)
 {
-	for (const HeldPiece& piece : heldPieces_)
+	for (const ConstrainedPiece& piece : constrainedPieces_)
 		addAttachedForce<Dim>(piece.at, piece.area * wall_.tractions[piece.piece], { force });
 }
 
 template <int Dim> std::string WallForce<Dim>::obstacle() const
 {
-	if (!heldPieces_.empty() || wall_.motion.isZero(0)) return {};
+	if (!constrainedPieces_.empty() || wall_.motion.isZero(0)) return {};
 	return "a wall moves, but none of it is where the grid holds material";
 }
 
-template <int Dim> void WallForce<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void WallForce<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
-	for (const HeldPiece& piece : heldPieces_)
+	for (const ConstrainedPiece& piece : constrainedPieces_)
 		for (int a = 0; a < Dim; ++a)
-			if (!piece.held.col(a).isZero(0)) hold(piece.at.node[0], piece.held.col(a), piece.at.inCell());
+			if (!piece.held.col(a).isZero(0)) constrain(piece.at.node[0], piece.held.col(a), piece.at.inCell());
 }
 
 template <int Dim> void WallForce<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<Vec<Dim>> tractions(wall_.tractions.size(), Vec<Dim>::Zero());
 	wall_.reaction.setZero();
-	for (const HeldPiece& piece : heldPieces_) {
+	for (const ConstrainedPiece& piece : constrainedPieces_) {
 		tractions[piece.piece] = tractionOn(piece, d);
 		wall_.reaction += piece.area * tractions[piece.piece];
 	}

@@ -40,12 +40,12 @@ public:
 	void                        addBefore(Eigen::VectorXd& force) override;
 	std::string                 obstacle() const override;
 	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
-	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
 	/// Of a piece, with material at its centre.
-	struct HeldPiece {
+	struct ConstrainedPiece {
 		int             piece;
 		Attachment<Dim> at;
 		double          area;      ///< around an axis of symmetry that of the ring [m2]
@@ -53,10 +53,10 @@ private:
 		double          stiffness; ///< [Pa/m]
 	};
 
-	Vec<Dim> tractionOn(const HeldPiece&, const Eigen::VectorXd& d) const;
+	Vec<Dim> tractionOn(const ConstrainedPiece&, const Eigen::VectorXd& d) const;
 
-	Wall<Dim>&             wall_;
-	std::vector<HeldPiece> heldPieces_;
+	Wall<Dim>&                    wall_;
+	std::vector<ConstrainedPiece> constrainedPieces_;
 };
 
 } // namespace gimpm

@@ -294,7 +294,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
 	model.newton.reuseFactor      = newton.reuseFactor;
 	model.newton.linearSolver     = linearMethod(newton.linearSolver);
-	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::HeldBox<Dim>::ofAxis(model.grid) });
+	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::ConstrainedBox<Dim>::ofAxis(model.grid) });
 	for (const auto& condition : conditions)
 		condition->hold(model);
 	return model;

@@ -5,9 +5,9 @@
 namespace yade {
 
 template <int Dim>
-gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+gimpm::ConstrainedBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
 {
-	const auto box         = gimpm::HeldBox<Dim>::from(lattice, min.head<Dim>(), max.head<Dim>());
+	const auto box         = gimpm::ConstrainedBox<Dim>::from(lattice, min.head<Dim>(), max.head<Dim>());
 	const bool missesPlane = Dim == 2 && (min[2] > grid.origin[2] || max[2] < grid.origin[2]);
 	if (!box.empty() && !missesPlane) return box;
 	std::ostringstream text;
@@ -99,8 +99,8 @@ template <int Dim> void requireFit(const MaterialPoint& point, const gimpm::Grid
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::HeldBox<Dim> boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);                     \
-	template void                requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
+	template gimpm::ConstrainedBox<Dim> boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);              \
+	template void                       requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

@@ -13,6 +13,6 @@ namespace yade {
 template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
 
 // Nodes in a box, by the name of its class. std::invalid_argument if there is none.
-template <int Dim> gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid&, const gimpm::Grid<Dim>&);
+template <int Dim> gimpm::ConstrainedBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid&, const gimpm::Grid<Dim>&);
 
 } // namespace yade

@@ -102,7 +102,7 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 	vector<Body::id_t>         erased;
 	for (size_t p = 0; p < points.size(); ++p) {
 		if (division->owns(lowest[p])) continue;
-		if (p < own) leaving[division->holderOf(lowest[p])].push_back(points[p].id);
+		if (p < own) leaving[division->processOf(lowest[p])].push_back(points[p].id);
 		erased.push_back(points[p].id);
 	}
 	vector<vector<double>> messages;

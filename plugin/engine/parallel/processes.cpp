@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/parallel/processes.hpp"
 #include "core/solvers/opened_processes.hpp"
-#include "core/stepping/share.hpp"
+#include "core/stepping/owned_parts.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "yade_api/python_lock.hpp"
 #include <cstdlib>

@@ -141,9 +141,9 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		Coupled<Dim>  c(Index<Dim>::Constant(3), { Coupled<Dim>::displacement(), { "pressure", "Pa", 1, 1e3 } });
 		c.fill(200);
-		const Ties  ties { { 4 }, { 0, 2 }, { 1, 7 }, { 0.25, 0.75 } };
-		Constraints held;
-		held.reset(c.map, ties);
+		const AffineConstraints affineConstraints { { 4 }, { 0, 2 }, { 1, 7 }, { 0.25, 0.75 } };
+		Constraints             held;
+		held.reset(c.map, affineConstraints);
 		for (int i = 0; i < c.map.size(); ++i)
 			if (const int f = c.map.fieldOf(i); (i - c.map.begin(f)) / c.map[f].width != 4) held.free(i);
 		Eigen::MatrixXd P = Eigen::MatrixXd::Zero(c.map.size(), held.dofs.count);
@@ -151,15 +151,15 @@ namespace {
 			if (held.dofs.number[i] >= 0) P(i, held.dofs.number[i]) = c.map[c.map.fieldOf(i)].scale;
 		for (int i = 0; i < P.cols(); ++i) {
 			Eigen::VectorXd column = P.col(i);
-			held.template spread<Dim>(c.map, column);
+			held.template distribute<Dim>(c.map, column);
 			P.col(i) = column;
 		}
 		const Eigen::MatrixXd expected = P.transpose() * c.full() * P;
 		EXPECT_LT((dense(reduced(c.springs.K, held.dofs, &c.beside)) - expected).norm(), 1e-13 * expected.norm());
 		Eigen::VectorXd forces = Random(2).vector(c.map.size()), folded = forces;
-		held.template fold<Dim>(c.map, folded);
+		held.template condense<Dim>(c.map, folded);
 		Eigen::VectorXd x = Random(3).vector(c.map.size());
-		held.template spread<Dim>(c.map, x);
+		held.template distribute<Dim>(c.map, x);
 		EXPECT_NEAR(folded.dot(x) / forces.dot(x), 1, 1e-13) << "the one is the transpose of the other";
 	}
 
@@ -380,13 +380,13 @@ namespace {
 		Eigen::VectorXd     x = Random(1).vector(Dim * c.nodes()), y, diagonal = whole->diagonal(), found = x, foundDiagonal = x;
 		whole->multiply(x, y);
 		inThreads(3, [&](const std::shared_ptr<const Processes>& process) {
-			const NodeShare         share { *process, { 0, c.nodes() / 4, 2 * c.nodes() / 3, c.nodes() } };
-			const SharedBlocks<Dim> part(c.springs.K, c.dofs, share, &c.beside);
-			const Eigen::VectorXd   own = share.own(x);
+			const OwnedNodes        ownedNodes { *process, { 0, c.nodes() / 4, 2 * c.nodes() / 3, c.nodes() } };
+			const SharedBlocks<Dim> part(c.springs.K, c.dofs, ownedNodes, &c.beside);
+			const Eigen::VectorXd   own = ownedNodes.own(x);
 			Eigen::VectorXd         product;
 			part.multiply(own, product);
-			share.own(found)         = product;
-			share.own(foundDiagonal) = part.diagonal();
+			ownedNodes.own(found)         = product;
+			ownedNodes.own(foundDiagonal) = part.diagonal();
 		});
 		EXPECT_LT((found - y).norm(), 1e-14 * y.norm());
 		EXPECT_LT((foundDiagonal - diagonal).norm(), 1e-14 * diagonal.norm());
@@ -407,13 +407,13 @@ namespace {
 			Coupled<Dim> c(Index<Dim>::Constant(5), { Coupled<Dim>::displacement() }, isSymmetric);
 			c.fill(60);
 			const Eigen::MatrixXd full   = c.full();
-			const NodeRows        whole  = *nodeRows(c.springs.K, c.dofs, NodeShare::whole(c.nodes()), &c.beside);
+			const NodeRows        whole  = *nodeRows(c.springs.K, c.dofs, OwnedNodes::whole(c.nodes()), &c.beside);
 			const auto            isFree = [&](int i) { return c.dofs.number[i] >= 0; };
 			double                sum = 0, expected = 0;
 			for (const int rank : { 0, 1 }) {
-				const OneOf     process(rank);
-				const NodeShare share { process, { 0, c.nodes() / 3, c.nodes() } };
-				const NodeRows  rows = *nodeRows(c.springs.K, c.dofs, share, &c.beside);
+				const OneOf      process(rank);
+				const OwnedNodes ownedNodes { process, { 0, c.nodes() / 3, c.nodes() } };
+				const NodeRows   rows = *nodeRows(c.springs.K, c.dofs, ownedNodes, &c.beside);
 				for (int r = 0; r < rows.rows(); ++r)
 					for (int e = rows.start[r]; e < rows.start[r + 1]; ++e) {
 						const int i = rows.dof[r], j = whole.dof[rows.column[e]];
@@ -448,8 +448,8 @@ namespace {
 			const Eigen::MatrixXd expected = scale.asDiagonal() * c.full() * scale.asDiagonal();
 			Eigen::MatrixXd       found = Eigen::MatrixXd::Zero(c.map.size(), c.map.size()), forMultigrid = found;
 			inThreads(2, [&](const std::shared_ptr<const Processes>& process) {
-				const NodeShare share { *process, { 0, c.nodes() / 3, c.nodes() } };
-				const NodeRows  rows = *fieldRows(c.springs.K, c.dofs, share, c.beside);
+				const OwnedNodes ownedNodes { *process, { 0, c.nodes() / 3, c.nodes() } };
+				const NodeRows   rows = *fieldRows(c.springs.K, c.dofs, ownedNodes, c.beside);
 				EXPECT_EQ(rows.dim, Dim + 3);
 				for (int r = 0; r < rows.rows(); ++r)
 					for (int e = rows.start[r]; e < rows.start[r + 1]; ++e) {

@@ -7,7 +7,7 @@ namespace {
 
 	const Grid<2> tenths { 0.1, { 0, 0 } };
 
-	TEST(HeldBox, HoldsNodesOnItsLimitsInSpiteOfRoundOff)
+	TEST(ConstrainedBox, HoldsNodesOnItsLimitsInSpiteOfRoundOff)
 	{
 		const auto box = held<2>(tenths, { 0.3, -infinity }, { 3 * 0.1, infinity }, "x"); // 3 * 0.1 > 0.3
 		EXPECT_EQ(box.lower[0], 3);
@@ -18,7 +18,7 @@ namespace {
 	}
 
 	/// A coordinate of a map, in which round-off is more than 1e-9 cells.
-	TEST(HeldBox, HoldsNodesFarAway)
+	TEST(ConstrainedBox, HoldsNodesFarAway)
 	{
 		for (const double place : { 5412000.1, 5412000.2, 5412000.3, 5412345.7 }) {
 			const auto box = held<2>(tenths, { place, 0 }, { place, 1 }, "x");
@@ -31,32 +31,32 @@ namespace {
 		}
 	}
 
-	TEST(HeldBox, HoldsNoNodeBetweenNodes)
+	TEST(ConstrainedBox, HoldsNoNodeBetweenNodes)
 	{
 		EXPECT_TRUE((held<2>(tenths, { 0.31, 0 }, { 0.39, 1 }, "x").empty()));
 		EXPECT_FALSE((held<2>(tenths, { 0.31, 0 }, { 0.4, 1 }, "x").empty()));
 		EXPECT_TRUE((held<2>(tenths, { 0.3 + 1e-9, 0 }, { 0.4 - 1e-9, 1 }, "x").empty())) << "beyond the tolerance of 1e-9 h";
 	}
 
-	TEST(HeldBox, InfiniteLimitsHoldEverythingOnTheGrid)
+	TEST(ConstrainedBox, InfiniteLimitsHoldEverythingOnTheGrid)
 	{
 		const auto box   = held<2>(tenths, { -infinity, -infinity }, { 0, infinity }, "y");
 		const int  limit = Grid<2>::indexLimit;
 		for (const int y : { -limit - 2, -1, 0, limit + 2 }) {
-			EXPECT_TRUE(box.holds({ 0, y }, 1));
-			EXPECT_TRUE(box.holds({ -limit, y }, 1));
-			EXPECT_FALSE(box.holds({ 1, y }, 1));
-			EXPECT_FALSE(box.holds({ 0, y }, 0)) << "not fixed in x";
+			EXPECT_TRUE(box.constrains({ 0, y }, 1));
+			EXPECT_TRUE(box.constrains({ -limit, y }, 1));
+			EXPECT_FALSE(box.constrains({ 1, y }, 1));
+			EXPECT_FALSE(box.constrains({ 0, y }, 0)) << "not fixed in x";
 		}
 	}
 
 	TEST(Boundary, TheLastBoxGivenHoldsTheNode)
 	{
 		const Boundary<2> boundary({ held<2>(tenths, { 0, 0 }, { 1, 1 }, "xy", { 1, 1 }), held<2>(tenths, { 1, 0 }, { 1, 1 }, "x", { 2, 2 }) });
-		EXPECT_EQ(boundary.holder({ 5, 5 }, 0)->displacement[0], 1);
-		EXPECT_EQ(boundary.holder({ 10, 5 }, 0)->displacement[0], 2);
-		EXPECT_EQ(boundary.holder({ 10, 5 }, 1)->displacement[1], 1);
-		EXPECT_EQ(boundary.holder({ 11, 5 }, 0), nullptr);
+		EXPECT_EQ(boundary.constrainingBox({ 5, 5 }, 0)->displacement[0], 1);
+		EXPECT_EQ(boundary.constrainingBox({ 10, 5 }, 0)->displacement[0], 2);
+		EXPECT_EQ(boundary.constrainingBox({ 10, 5 }, 1)->displacement[1], 1);
+		EXPECT_EQ(boundary.constrainingBox({ 11, 5 }, 0), nullptr);
 	}
 
 	TEST(Boundary, AFaceIsAWallWhenAllItsNodesAreHeldAlongItsNormal)

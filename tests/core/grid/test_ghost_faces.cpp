@@ -94,8 +94,8 @@ namespace {
 
 	TEST(GhostFaces, AFullyEnclosedBodyHasNone)
 	{
-		const auto                    cells = cube<3>(3);
-		const std::vector<HeldBox<3>> lower = { wallBelow<3>(space, 0, 0), wallBelow<3>(space, 1, 0), wallBelow<3>(space, 2, 0) };
+		const auto                           cells = cube<3>(3);
+		const std::vector<ConstrainedBox<3>> lower = { wallBelow<3>(space, 0, 0), wallBelow<3>(space, 1, 0), wallBelow<3>(space, 2, 0) };
 		Boundary<3> box({ lower[0], lower[1], lower[2], wallAbove<3>(space, 0, 3), wallAbove<3>(space, 1, 3), wallAbove<3>(space, 2, 3) });
 		EXPECT_TRUE(boundaryCells<3>(cells, box).empty());
 		EXPECT_TRUE(ghostFaces<3>(cells, {}, box).empty());
@@ -111,10 +111,10 @@ namespace {
 
 	TEST(GhostFaces, ABasinFilledToTheTop)
 	{
-		const auto                    cells = cube<3>(3);
-		const std::vector<HeldBox<3>> lower = { wallBelow<3>(space, 0, 0), wallBelow<3>(space, 1, 0), wallBelow<3>(space, 2, 0) };
-		Boundary<3>                   basin({ lower[0], lower[1], lower[2], wallAbove<3>(space, 0, 3), wallAbove<3>(space, 1, 3) });
-		const auto                    boundary = boundaryCells<3>(cells, basin);
+		const auto                           cells = cube<3>(3);
+		const std::vector<ConstrainedBox<3>> lower = { wallBelow<3>(space, 0, 0), wallBelow<3>(space, 1, 0), wallBelow<3>(space, 2, 0) };
+		Boundary<3>                          basin({ lower[0], lower[1], lower[2], wallAbove<3>(space, 0, 3), wallAbove<3>(space, 1, 3) });
+		const auto                           boundary = boundaryCells<3>(cells, basin);
 		EXPECT_EQ(boundary.size(), 9u);
 		for (const Key k : boundary)
 			EXPECT_EQ(Grid<3>::index(k)[2], 2);

@@ -105,14 +105,14 @@ namespace {
 			EXPECT_GT(levels[0], 20);
 			EXPECT_GT(levels[1], 20);
 			EXPECT_GT(levels[2], 20);
-			EXPECT_GT(basis.ties.node.size(), 20u);
+			EXPECT_GT(basis.affineConstraints.node.size(), 20u);
 			const Mat<Dim>  A     = random.matrix<Dim, Dim>();
 			const Vec<Dim>  b     = random.matrix<Dim>();
 			Eigen::VectorXd d     = nodal<Dim>(basis, grid, [&](const Vec<Dim>& x) { return Vec<Dim>(A * x + b); });
 			const auto      exact = d;
-			for (const int tied : basis.ties.node)
+			for (const int tied : basis.affineConstraints.node)
 				d.template segment<Dim>(Dim * tied).setConstant(1e9);
-			basis.ties.template spread<Dim>(d);
+			basis.affineConstraints.template distribute<Dim>(d);
 			EXPECT_LT((d - exact).cwiseAbs().maxCoeff(), 1e-13);
 			const Field<Dim> field(basis, d, cloud.size());
 			for (std::size_t p = 0; p < cloud.size(); ++p) {
@@ -139,7 +139,7 @@ namespace {
 		}
 		const auto      basis = cloudBasis<Dim>(cloud, grid, Basis::linear, Boundary<Dim>());
 		Eigen::VectorXd d     = random.vector(Dim * int(basis.nodes.size()));
-		basis.ties.template spread<Dim>(d);
+		basis.affineConstraints.template distribute<Dim>(d);
 		const Field<Dim> field(basis, d, cloud.size());
 		int              kinks = 0;
 		for (int i = 0; i < pairs; ++i) {
@@ -162,16 +162,18 @@ namespace {
 		constexpr int Dim   = TypeParam::value;
 		const auto    grid  = cornerGrid<Dim>();
 		const auto    basis = cloudBasis<Dim>(scattered<Dim>(30), grid, Basis::gimp, Boundary<Dim>());
-		for (std::size_t t = 0; t < basis.ties.node.size(); ++t) {
+		for (std::size_t t = 0; t < basis.affineConstraints.node.size(); ++t) {
 			double sum = 0;
-			for (int m = basis.ties.start[t]; m < basis.ties.start[t + 1]; ++m) {
-				EXPECT_FALSE(basis.ties.contains(basis.ties.master[m]));
-				EXPECT_GE(Grid<Dim>::level(basis.nodes[basis.ties.master[m]]), Grid<Dim>::level(basis.nodes[basis.ties.node[t]]));
-				sum += basis.ties.weight[m];
+			for (int m = basis.affineConstraints.start[t]; m < basis.affineConstraints.start[t + 1]; ++m) {
+				EXPECT_FALSE(basis.affineConstraints.contains(basis.affineConstraints.master[m]));
+				EXPECT_GE(
+				        Grid<Dim>::level(basis.nodes[basis.affineConstraints.master[m]]),
+				        Grid<Dim>::level(basis.nodes[basis.affineConstraints.node[t]]));
+				sum += basis.affineConstraints.weight[m];
 			}
 			EXPECT_NEAR(sum, 1, 1e-14);
 		}
-		EXPECT_TRUE(std::is_sorted(basis.ties.node.begin(), basis.ties.node.end()));
+		EXPECT_TRUE(std::is_sorted(basis.affineConstraints.node.begin(), basis.affineConstraints.node.end()));
 		EXPECT_TRUE(std::is_sorted(basis.nodes.begin(), basis.nodes.end()));
 	}
 
@@ -189,7 +191,7 @@ namespace {
 		EXPECT_EQ(refined.nodes, equal.nodes);
 		EXPECT_EQ(refined.cells, equal.cells);
 		EXPECT_EQ(refined.order, equal.order);
-		EXPECT_TRUE(refined.ties.empty());
+		EXPECT_TRUE(refined.affineConstraints.empty());
 	}
 
 } // namespace

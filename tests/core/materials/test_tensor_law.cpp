@@ -275,8 +275,8 @@ namespace {
 		Loop              loop;
 		const std::size_t column = Law(hardening())->columns[4];
 		for (int step = 0; step < 16; ++step) {
-			const double              g = (step / 4 % 4 == 1 || step / 4 % 4 == 2 ? -1 : 1) * amplitude / 4;
-			std::vector<HeldBox<Dim>> boxes;
+			const double                     g = (step / 4 % 4 == 1 || step / 4 % 4 == 2 ? -1 : 1) * amplitude / 4;
+			std::vector<ConstrainedBox<Dim>> boxes;
 			for (int row = 0; row <= 2; ++row) { // each row of nodes goes by what its height asks for
 				Vec<Dim> low = Vec<Dim>::Constant(-inf), high = Vec<Dim>::Constant(inf);
 				low[1] = row == 0 ? -inf : row - .1, high[1] = row == 2 ? inf : row + .1;

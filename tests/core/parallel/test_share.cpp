@@ -62,7 +62,7 @@ namespace {
 					NodeMatrix<Dim>       ownK;
 					part.prepare(ownK);
 					ASSERT_FALSE(part.evaluate(d, ownForce, &ownK, &ownContributions));
-					const int first = Dim * part.share().first(), rows = Dim * part.share().last() - first;
+					const int first = Dim * part.ownedNodes().first(), rows = Dim * part.ownedNodes().last() - first;
 					EXPECT_EQ(first, next);
 					EXPECT_GT(rows, 0);
 					EXPECT_EQ(ownK.keeps(0), rank == 0) << "no memory for blocks far below";
@@ -88,7 +88,7 @@ namespace {
 		StepReport            report;
 		const StepSystem<Dim> whole(cloud, model, {}, report);
 		const OneOf           process(1, 3);
-		const Share<Dim>      share(process, whole.basis, whole.faces, *model.division);
+		const OwnedParts<Dim> share(process, whole.basis, whole.faces, *model.division);
 		int                   kept = 0;
 		ASSERT_EQ(share.colours().size(), whole.basis.colours.size());
 		for (std::size_t c = 0; c < share.colours().size(); ++c)
@@ -121,14 +121,14 @@ namespace {
 		const auto    hole = [](const Index<Dim>& i) { return (i.array() == 2).all(); };
 		for (const int period : { 0, 3, 6 }) {
 			Springs<Dim> springs(Index<Dim>::Constant(period ? period : 5), 2, hole, Index<Dim>::Unit(0) * period);
-			const auto   whole = *nodeRows(springs.K, springs.dofs, NodeShare::whole(springs.K.nodes()));
+			const auto   whole = *nodeRows(springs.K, springs.dofs, OwnedNodes::whole(springs.K.nodes()));
 			const auto   all   = dense(whole, whole.value);
 			const int    nodes = springs.K.nodes();
 			for (int rank = 0, next = 0; rank < 4; ++rank) {
 				const OneOf process(rank, 4);
 				// The first one and the last one have none.
-				const NodeShare share { process, { 0, 0, nodes / 3, nodes, nodes } };
-				const auto      own = *nodeRows(springs.K, springs.dofs, share);
+				const OwnedNodes ownedNodes { process, { 0, 0, nodes / 3, nodes, nodes } };
+				const auto       own = *nodeRows(springs.K, springs.dofs, ownedNodes);
 				EXPECT_EQ(own.first, next);
 				EXPECT_EQ(own.all, whole.rows());
 				EXPECT_TRUE(own.symmetricPart.empty());
@@ -153,7 +153,7 @@ namespace {
 		Eigen::VectorXd force;
 		system.prepare(K);
 		system.evaluate(Eigen::VectorXd::NullaryExpr(system.nodalSize(), [&] { return numbers.in(-0.02, 0.02); }), force, &K);
-		const auto            rows = *nodeRows(K, system.dofs, NodeShare::whole(K.nodes()));
+		const auto            rows = *nodeRows(K, system.dofs, OwnedNodes::whole(K.nodes()));
 		const Eigen::MatrixXd all = gimpm::dense(K), found = dense(rows, rows.value), part = dense(rows, rows.symmetricPart);
 		EXPECT_GT((all - all.transpose()).norm(), 1e-3 * all.norm()) << "the points flow";
 		EXPECT_LT((part - 0.5 * (found + found.transpose())).norm(), 1e-14 * found.norm());

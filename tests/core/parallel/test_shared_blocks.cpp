@@ -9,15 +9,15 @@ namespace gimpm::testSharedBlocks {
 namespace {
 
 	/// The rows and columns of the own nodes, as a process has them; of the rest not even the memory.
-	template <int Dim> NodeMatrix<Dim> ownPart(const Springs<Dim>& springs, const NodeShare& share)
+	template <int Dim> NodeMatrix<Dim> ownPart(const Springs<Dim>& springs, const OwnedNodes& ownedNodes)
 	{
 		NodeMatrix<Dim> K;
-		K.reset(springs.nodes, true, springs.grid, { share.first(), share.last() });
+		K.reset(springs.nodes, true, springs.grid, { ownedNodes.first(), ownedNodes.last() });
 		for (int a = 0; a < K.nodes(); ++a)
 			for (int c = 0; c < K.codes; ++c) {
 				if (!springs.K.used(a, c)) continue;
 				K.markUsed(a, c);
-				EXPECT_TRUE(K.keeps(a) || !(share.owns(a) || share.owns(K.neighbour(a, c))));
+				EXPECT_TRUE(K.keeps(a) || !(ownedNodes.owns(a) || ownedNodes.owns(K.neighbour(a, c))));
 				if (K.keeps(a)) std::copy_n(springs.K.at(a, c), K.block, K.at(a, c));
 			}
 		return K;
@@ -28,9 +28,9 @@ namespace {
 	{
 		const int nodes = springs.K.nodes();
 		inThreads(3, [&](const std::shared_ptr<const Processes>& process) {
-			const NodeShare share { *process, { 0, 0, nodes / 3, nodes } };
-			const auto      part = ownPart(springs, share);
-			f(share, SharedBlocks<Dim>(part, springs.dofs, share));
+			const OwnedNodes ownedNodes { *process, { 0, 0, nodes / 3, nodes } };
+			const auto       part = ownPart(springs, ownedNodes);
+			f(ownedNodes, SharedBlocks<Dim>(part, springs.dofs, ownedNodes));
 		});
 	}
 
@@ -53,12 +53,12 @@ namespace {
 			const BlockMatrix<Dim> whole(springs.K, springs.dofs);
 			Eigen::VectorXd        x = Random(1).vector(Dim * springs.K.nodes()), y, diagonal = whole.diagonal(), found = x, foundDiagonal = x;
 			whole.multiply(x, y);
-			forProcesses(springs, [&](const NodeShare& share, const SharedBlocks<Dim>& K) {
-				const Eigen::VectorXd own = share.own(x);
+			forProcesses(springs, [&](const OwnedNodes& ownedNodes, const SharedBlocks<Dim>& K) {
+				const Eigen::VectorXd own = ownedNodes.own(x);
 				Eigen::VectorXd       product;
 				K.multiply(own, product);
-				share.own(found)         = product;
-				share.own(foundDiagonal) = K.diagonal();
+				ownedNodes.own(found)         = product;
+				ownedNodes.own(foundDiagonal) = K.diagonal();
 				EXPECT_NEAR(K.norm(own), x.norm(), 1e-14 * x.norm());
 				double sums[] = { 1, double(own.size()) };
 				K.complete(sums, 2);
@@ -81,13 +81,13 @@ namespace {
 		ConjugateGradients alone(whole, b, 1e-10);
 		alone.iterate(mostIterations);
 		ASSERT_EQ(alone.take(x), "");
-		forProcesses(springs, [&](const NodeShare& share, const SharedBlocks<Dim>& K) {
-			ConjugateGradients together(K, share.own(b), 1e-10);
+		forProcesses(springs, [&](const OwnedNodes& ownedNodes, const SharedBlocks<Dim>& K) {
+			ConjugateGradients together(K, ownedNodes.own(b), 1e-10);
 			together.iterate(mostIterations);
 			Eigen::VectorXd own;
 			EXPECT_EQ(together.take(own), "");
 			EXPECT_NEAR(together.made(), alone.made(), 1);
-			share.own(found) = own;
+			ownedNodes.own(found) = own;
 		});
 		EXPECT_LT((found - x).norm(), 1e-9 * x.norm());
 	}
@@ -98,9 +98,9 @@ namespace {
 		auto                  springs             = TestFixture::springs(6, 0);
 		const Eigen::VectorXd b                   = Eigen::VectorXd::Ones(Dim * springs.K.nodes());
 		springs.K.at(springs.K.nodes() - 1, 0)[0] = -1; // block of the last one
-		forProcesses(springs, [&](const NodeShare& share, const SharedBlocks<Dim>& K) {
+		forProcesses(springs, [&](const OwnedNodes& ownedNodes, const SharedBlocks<Dim>& K) {
 			Eigen::VectorXd    all = b, x;
-			ConjugateGradients together(K, share.own(all), 1e-10);
+			ConjugateGradients together(K, ownedNodes.own(all), 1e-10);
 			EXPECT_TRUE(together.hasBrokenDown());
 			EXPECT_EQ(together.take(x), "the matrix is not positive definite");
 		});

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A box that moves nodes is named when they hold no soil, or when a gap has opened between them and the soil that they
 // push.
-#include "core/stepping/boundary_hold.hpp"
+#include "core/stepping/lost_constraint.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testGrip {
 namespace {
 
 	/// A block of 3 cells a side, from (1, 1) to (2.5, 2.5), whose top is moved by a plate of nodes.
-	template <class Dimension> class HeldPiece : public ::testing::Test {
+	template <class Dimension> class ConstrainedPiece : public ::testing::Test {
 	public:
 		static constexpr int Dim = Dimension::value;
 
@@ -17,7 +17,7 @@ namespace {
 		Load<Dim>       load;
 		LinearSolver    solver;
 
-		HeldPiece()
+		ConstrainedPiece()
 		{
 			model.grid      = { 0.5, Vec<Dim>::Ones() };
 			model.materials = { { Hencky(1e6, 0.25), 1 } };
@@ -30,7 +30,7 @@ namespace {
 		{
 			Vec<Dim> min = Vec<Dim>::Constant(-infinity), max = Vec<Dim>::Constant(infinity);
 			min[1] = max[1] = height;
-			std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, min, max, Dim == 2 ? "xy" : "xyz", by) };
+			std::vector<ConstrainedBox<Dim>> boxes { held<Dim>(model.grid, min, max, Dim == 2 ? "xy" : "xyz", by) };
 			for (int axis = 0; axis < Dim; ++axis)
 				boxes.push_back(wallBelow<Dim>(model.grid, axis, 1));
 			model.boundary = Boundary<Dim>(boxes);
@@ -41,11 +41,11 @@ namespace {
 			for (auto& x : cloud.position)
 				if (x[1] > 1.5) x[1] -= cells * model.grid.cellSize;
 		}
-		std::string lost() const { return lostHold<Dim>(cloud, cloudBasis<Dim>(cloud, model.grid, model.basis, model.boundary), model, load); }
+		std::string lost() const { return lostConstraint<Dim>(cloud, cloudBasis<Dim>(cloud, model.grid, model.basis, model.boundary), model, load); }
 	};
-	TYPED_TEST_SUITE(HeldPiece, BothDimensions, DimensionName);
+	TYPED_TEST_SUITE(ConstrainedPiece, BothDimensions, DimensionName);
 
-	TYPED_TEST(HeldPiece, IsLostWhenMoreThanHalfACellHasOpened)
+	TYPED_TEST(ConstrainedPiece, IsLostWhenMoreThanHalfACellHasOpened)
 	{
 		EXPECT_EQ(this->lost(), "");
 		this->lower(0.5);
@@ -56,7 +56,7 @@ namespace {
 		EXPECT_NE(lost.find("along -y is 0.51 cells away from its node at (1, 2.5"), std::string::npos) << lost;
 	}
 
-	TYPED_TEST(HeldPiece, IsLostAlsoWhereTheNodesCarryNoSoilAnyMore)
+	TYPED_TEST(ConstrainedPiece, IsLostAlsoWhereTheNodesCarryNoSoilAnyMore)
 	{
 		// one column of points stays: the other nodes are still missed
 		const double edge = 1.25;
@@ -65,7 +65,7 @@ namespace {
 		EXPECT_NE(this->lost().find("1.2 cells away"), std::string::npos) << this->lost();
 	}
 
-	TYPED_TEST(HeldPiece, IsNotOfSoilThatWasNeverThere)
+	TYPED_TEST(ConstrainedPiece, IsNotOfSoilThatWasNeverThere)
 	{
 		this->cloud.position0.clear();
 		this->lower(0.75);
@@ -77,7 +77,7 @@ namespace {
 		EXPECT_NE(this->lost(), "");
 	}
 
-	TYPED_TEST(HeldPiece, DependsOnTheDirection)
+	TYPED_TEST(ConstrainedPiece, DependsOnTheDirection)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->lower(0.6);
@@ -96,7 +96,7 @@ namespace {
 		EXPECT_EQ(this->lost(), "") << "before it has begun";
 	}
 
-	TYPED_TEST(HeldPiece, IsKeptByNodesInsideOfTheSoil)
+	TYPED_TEST(ConstrainedPiece, IsKeptByNodesInsideOfTheSoil)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 2);
@@ -106,7 +106,7 @@ namespace {
 		EXPECT_NE(this->lost(), "");
 	}
 
-	TYPED_TEST(HeldPiece, NeedsANodeWithSoil)
+	TYPED_TEST(ConstrainedPiece, NeedsANodeWithSoil)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 3.5);
@@ -118,7 +118,7 @@ namespace {
 		EXPECT_EQ(this->lost(), "") << "a box that holds nodes may wait for soil";
 	}
 
-	TYPED_TEST(HeldPiece, LostEndsTheStep)
+	TYPED_TEST(ConstrainedPiece, LostEndsTheStep)
 	{
 		this->lower(0.6);
 		const auto before = this->cloud.position;

@@ -29,7 +29,7 @@ namespace {
 			max[1]       = 0;
 			boxes        = { held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz"), wallBelow<Dim>(model.grid, 0, 0) };
 		}
-		std::vector<HeldBox<Dim>> boxes;
+		std::vector<ConstrainedBox<Dim>> boxes;
 
 		PointCloud<Dim> run()
 		{

@@ -21,7 +21,7 @@ namespace {
 			model.boundary  = Boundary<Dim>({ floor() });
 			load.gravity    = -10 * Vec<Dim>::Unit(1);
 		}
-		HeldBox<Dim> floor() const
+		ConstrainedBox<Dim> floor() const
 		{
 			Vec<Dim> max = Vec<Dim>::Constant(infinity);
 			max[1]       = 0;

@@ -7,12 +7,12 @@ namespace {
 
 	/// Columns one cell wide between smooth sides, on a smooth base; each has a box that holds its base.
 	struct Columns {
-		Model<2>                model;
-		PointCloud<2>           cloud;
-		std::vector<HeldBox<2>> boxes;
-		std::vector<double>     weight; ///< weight of each column [N]
-		Load<2>                 load;
-		LinearSolver            solver;
+		Model<2>                       model;
+		PointCloud<2>                  cloud;
+		std::vector<ConstrainedBox<2>> boxes;
+		std::vector<double>            weight; ///< weight of each column [N]
+		Load<2>                        load;
+		LinearSolver                   solver;
 
 		Columns() { load.gravity = { 0, -10 }; }
 

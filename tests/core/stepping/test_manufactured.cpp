@@ -97,7 +97,7 @@ namespace {
 		model.materials        = { { Hencky(young, poisson), 1 } };
 		model.ghost            = ghost;
 		model.newton.tolerance = 1e-10;
-		std::vector<HeldBox<Dim>> walls;
+		std::vector<ConstrainedBox<Dim>> walls;
 		for (int axis = 0; axis < Dim; ++axis) {
 			walls.push_back(wallBelow<Dim>(model.grid, axis, 0));
 			if (!(Motion::freeTop && axis == 1)) walls.push_back(wallAbove<Dim>(model.grid, axis, 1));

@@ -21,7 +21,7 @@ namespace {
 	}
 
 	/// All below a level held in all directions.
-	template <int Dim> HeldBox<Dim> base(const Grid<Dim>& grid)
+	template <int Dim> ConstrainedBox<Dim> base(const Grid<Dim>& grid)
 	{
 		Vec<Dim> max = Vec<Dim>::Constant(infinity);
 		max[1]       = 0;
@@ -323,7 +323,7 @@ namespace {
 		           right   = held<2>(grid, { 6, -infinity }, { infinity, infinity }, "x");
 		for (const auto& box : { left, right })
 			for (int node = -8; node < 14; ++node)
-				EXPECT_EQ(box.holds({ node, 3 }, 0), node % 6 == 0) << node;
+				EXPECT_EQ(box.constrains({ node, 3 }, 0), node % 6 == 0) << node;
 		EXPECT_TRUE(left.meets(right));
 		EXPECT_FALSE(held<2>(grid, { 1, 0 }, { 5, 1 }, "x").meets(right));
 		EXPECT_TRUE(held<2>(grid, { 6.5, 0 }, { 9, 1 }, "x").empty()) << "beyond the sides";

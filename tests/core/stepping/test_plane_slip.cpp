@@ -11,10 +11,10 @@ namespace {
 	/// Ground of 6 x 3 m, in space 1.5 m wide, between rollers on a rough base, dug away to a depth where `isDug`
 	/// says so.
 	template <int Dim> struct Cut {
-		Grid<Dim>                 grid;
-		PointCloud<Dim>           cloud;
-		std::vector<HeldBox<Dim>> boxes;
-		Vec<Dim>                  down = -Vec<Dim>::Unit(Dim - 1);
+		Grid<Dim>                        grid;
+		PointCloud<Dim>                  cloud;
+		std::vector<ConstrainedBox<Dim>> boxes;
+		Vec<Dim>                         down = -Vec<Dim>::Unit(Dim - 1);
 
 		explicit Cut(
 		        double height, double size = 0.5, std::function<bool(const Vec<Dim>&)> isDug = [](const Vec<Dim>& x) { return x[0] > 3; })

@@ -81,7 +81,7 @@ namespace {
 		LinearSolver     solver;
 		LastIncrement<2> last;
 
-		Blocks(const Index<2>& cells, const std::vector<HeldBox<2>>& boxes) : zero(block<2>(model.grid, cells, 2)), predicted(zero)
+		Blocks(const Index<2>& cells, const std::vector<ConstrainedBox<2>>& boxes) : zero(block<2>(model.grid, cells, 2)), predicted(zero)
 		{
 			model.materials = { { Hencky(1e6, 0.3), 1000 } };
 			model.boundary  = Boundary<2>(boxes);

@@ -23,7 +23,8 @@ namespace {
 		{
 			Vec<Dim> min = Vec<Dim>::Constant(-infinity);
 			min[1]       = 2;
-			std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, min, Vec<Dim>::Constant(infinity), "y", displacement * Vec<Dim>::Unit(1)) };
+			std::vector<ConstrainedBox<Dim>> boxes { held<Dim>(
+				model.grid, min, Vec<Dim>::Constant(infinity), "y", displacement * Vec<Dim>::Unit(1)) };
 			for (int axis = 0; axis < Dim; ++axis)
 				boxes.push_back(wallBelow<Dim>(model.grid, axis, 0));
 			model.boundary = Boundary<Dim>(boxes);
@@ -94,7 +95,7 @@ namespace {
 		turn.template topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
 		LinearSolver solver;
 		for (int step = 0; step < 2; ++step) {
-			std::vector<HeldBox<Dim>> boxes; // no two of these lines bound a face of a cell: none is a wall
+			std::vector<ConstrainedBox<Dim>> boxes; // no two of these lines bound a face of a cell: none is a wall
 			for (const auto& [i, j] : { std::pair { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } }) {
 				Vec<Dim> low = Vec<Dim>::Constant(-infinity), high = Vec<Dim>::Constant(infinity), place = Vec<Dim>::Zero();
 				low.template head<2>() = high.template head<2>() = place.template head<2>() = Eigen::Vector2d(i, j);

@@ -64,8 +64,8 @@ namespace {
 		}
 		void addBoundaries()
 		{
-			const double              h = model.grid.cellSize;
-			std::vector<HeldBox<Dim>> boxes;
+			const double                     h = model.grid.cellSize;
+			std::vector<ConstrainedBox<Dim>> boxes;
 			for (int axis = 0; axis < Dim; ++axis) {
 				if (random.integer(0, 5)) boxes.push_back(wallBelow<Dim>(model.grid, axis, model.grid.origin[axis] + h * random.integer(0, 2)));
 				if (random.integer(0, 1)) boxes.push_back(wallAbove<Dim>(model.grid, axis, model.grid.origin[axis] + h * random.integer(2, 5)));
@@ -119,7 +119,7 @@ namespace {
 		LoosePoints     loose = restraint(system.basis, model.grid, model.boundary, system.terms, *model.division).loose;
 		if (loose.points != loosePoints) loose = hinged(system.basis, model.grid, model.boundary, system.terms, *model.division);
 		ASSERT_EQ(loose.points, loosePoints);
-		if (loosePoints > 0) system.holdStill(loose.nodes, load); // same as in a step
+		if (loosePoints > 0) system.fixNodes(loose.nodes, load); // same as in a step
 		ASSERT_EQ(d.size(), system.nodalSize());
 		const auto [residual, forces]  = balance(system, d);
 		const auto [imbalance, loaded] = balance(system, Eigen::VectorXd(Eigen::VectorXd::Zero(d.size())));

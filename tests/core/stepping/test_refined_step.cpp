@@ -21,8 +21,8 @@ namespace {
 	/// Rollers on all sides of the block but the last one along y, which is pushed.
 	template <int Dim> Boundary<Dim> pressed(const Grid<Dim>& grid, double displacement)
 	{
-		const Vec<Dim>            size = cornerSize<Dim>().template cast<double>();
-		std::vector<HeldBox<Dim>> boxes;
+		const Vec<Dim>                   size = cornerSize<Dim>().template cast<double>();
+		std::vector<ConstrainedBox<Dim>> boxes;
 		for (int a = 0; a < Dim; ++a) {
 			boxes.push_back(wallBelow<Dim>(grid, a, 0));
 			if (a != 1) boxes.push_back(wallAbove<Dim>(grid, a, size[a]));
@@ -82,12 +82,12 @@ namespace {
 			const StepSystem<Dim> system(cloud, m, {}, report);
 			EXPECT_GT(report.ghostFaces, 5);
 			EXPECT_EQ(system.isSymmetric(), kind != 2);
-			ASSERT_GT(system.basis.ties.node.size(), 5u);
+			ASSERT_GT(system.basis.affineConstraints.node.size(), 5u);
 			const auto all = [&](const Eigen::VectorXd& x) {
 				Eigen::VectorXd d = Eigen::VectorXd::Zero(system.nodalSize());
 				for (int i = 0; i < d.size(); ++i)
 					if (system.dofs.number[i] >= 0) d[i] = x[system.dofs.number[i]];
-				system.basis.ties.template spread<Dim>(d);
+				system.basis.affineConstraints.template distribute<Dim>(d);
 				return d;
 			};
 			const auto forces = [&](const Eigen::VectorXd& x) {
@@ -158,7 +158,7 @@ namespace {
 		Model<Dim>     m       = model<Dim>(cornerGrid<Dim>());
 		const Vec<Dim> size    = cornerSize<Dim>().template cast<double>();
 		m.materials[0].density = 2000;
-		std::vector<HeldBox<Dim>> boxes;
+		std::vector<ConstrainedBox<Dim>> boxes;
 		for (int a = 0; a < Dim; ++a)
 			boxes.push_back(wallBelow<Dim>(m.grid, a, 0));
 		m.boundary         = Boundary<Dim>(boxes);
@@ -181,7 +181,7 @@ namespace {
 		Model<Dim> m                             = model<Dim>(refinedGrid<Dim>({ { low, high, 1 } }));
 		m.materials                              = { { Hencky(1, 0), 1 } };
 		m.ghost                                  = { factor };
-		std::vector<HeldBox<Dim>> boxes;
+		std::vector<ConstrainedBox<Dim>> boxes;
 		for (int a = 0; a < Dim; ++a)
 			boxes.push_back(wallBelow<Dim>(m.grid, a, 0));
 		m.boundary = Boundary<Dim>(boxes);

@@ -11,15 +11,15 @@ namespace {
 		// From (1, 1) to (2, 2), its middle at 1.5.
 		PointCloud<Dim> cloud = block<Dim>(grid, Index<Dim>::Constant(2), 2);
 
-		Restraint restraint(const std::vector<HeldBox<Dim>>& boxes) const
+		Restraint restraint(const std::vector<ConstrainedBox<Dim>>& boxes) const
 		{
 			const Boundary<Dim> boundary(boxes);
 			return gimpm::restraint<Dim>(cloudBasis<Dim>(cloud, grid, Basis::gimp, boundary), grid, boundary);
 		}
-		std::string motion(const std::vector<HeldBox<Dim>>& boxes) const { return restraint(boxes).freeMotion; }
+		std::string motion(const std::vector<ConstrainedBox<Dim>>& boxes) const { return restraint(boxes).freeMotion; }
 		int         parts() const { return restraint({}).parts; }
 		/// One node held.
-		HeldBox<Dim> pin(const Vec<Dim>& place, const std::string& fix) const { return held<Dim>(grid, place, place, fix); }
+		ConstrainedBox<Dim> pin(const Vec<Dim>& place, const std::string& fix) const { return held<Dim>(grid, place, place, fix); }
 	};
 
 	TEST(Restraint, NamesTheFreeTranslationIn2D)
@@ -48,9 +48,9 @@ namespace {
 
 	TEST(Restraint, NamesFreeMotionsIn3D)
 	{
-		const Body<3>     body;
-		const HeldBox<3>  x = wallBelow<3>(body.grid, 0, 1), y = wallBelow<3>(body.grid, 1, 1), z = wallBelow<3>(body.grid, 2, 1);
-		const std::string where = " of the material around (1.5, 1.5, 1.5)";
+		const Body<3>           body;
+		const ConstrainedBox<3> x = wallBelow<3>(body.grid, 0, 1), y = wallBelow<3>(body.grid, 1, 1), z = wallBelow<3>(body.grid, 2, 1);
+		const std::string       where = " of the material around (1.5, 1.5, 1.5)";
 		EXPECT_EQ(body.motion({}), "translation along x" + where);
 		EXPECT_EQ(body.motion({ x, y }), "translation along z" + where);
 		EXPECT_EQ(body.motion({ y, z }), "translation along x" + where);

@@ -26,8 +26,8 @@ namespace {
 		}
 		void hold(bool isPressed)
 		{
-			const double              top = Dim == 2 ? 4 : 3;
-			std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), upTo(1, 0), Dim == 2 ? "xy" : "xyz") };
+			const double                     top = Dim == 2 ? 4 : 3;
+			std::vector<ConstrainedBox<Dim>> boxes { held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), upTo(1, 0), Dim == 2 ? "xy" : "xyz") };
 			if (isPressed) {
 				Vec<Dim> min = Vec<Dim>::Constant(-infinity), moved = Vec<Dim>::Zero();
 				min[1] = top, moved[0] = 0.01, moved[1] = -0.02;
@@ -50,7 +50,7 @@ namespace {
 			return max;
 		}
 		/// A wall without the rows of nodes that floor and plate hold.
-		HeldBox<Dim> inside(Vec<Dim> min, Vec<Dim> max, int axis, double top) const
+		ConstrainedBox<Dim> inside(Vec<Dim> min, Vec<Dim> max, int axis, double top) const
 		{
 			min[1] = 1, max[1] = top - 1;
 			return held<Dim>(model.grid, min, max, std::string(1, "xyz"[axis]));

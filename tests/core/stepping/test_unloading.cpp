@@ -55,7 +55,7 @@ namespace {
 		Vec<Dim>        middle = 2 * Vec<Dim>::Ones(), side = middle;
 		middle[1] = side[1] = 0, side[0] = 3;
 		model.materials = { { Hencky(1e6, 0.3), 1 } };
-		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 1, 0), held<Dim>(model.grid, middle, middle, Dim == 2 ? "x" : "xz") };
+		std::vector<ConstrainedBox<Dim>> boxes { wallBelow<Dim>(model.grid, 1, 0), held<Dim>(model.grid, middle, middle, Dim == 2 ? "x" : "xz") };
 		if (Dim == 3) boxes.push_back(held<Dim>(model.grid, side, side, "z"));
 		model.boundary         = Boundary<Dim>(boxes);
 		model.newton.tolerance = 1e-10;

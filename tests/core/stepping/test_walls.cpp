@@ -17,7 +17,7 @@ namespace {
 		return k;
 	}
 
-	template <int Dim> std::set<Key> populated(const PointCloud<Dim>& cloud, const std::vector<HeldBox<Dim>>& boxes, Basis basis = Basis::gimp)
+	template <int Dim> std::set<Key> populated(const PointCloud<Dim>& cloud, const std::vector<ConstrainedBox<Dim>>& boxes, Basis basis = Basis::gimp)
 	{
 		const auto b = cloudBasis<Dim>(cloud, Grid<Dim>(), basis, Boundary<Dim>(boxes));
 		return { b.cells.begin(), b.cells.end() };
@@ -129,8 +129,8 @@ namespace {
 
 	TEST(Wall, ARegularBlockBetweenWallsTouchesThemAndPopulatesItsOwnCells)
 	{
-		const Grid<2>           tenths { 0.1, { 0.3, 0.3 } };
-		std::vector<HeldBox<2>> walls;
+		const Grid<2>                  tenths { 0.1, { 0.3, 0.3 } };
+		std::vector<ConstrainedBox<2>> walls;
 		for (int axis = 0; axis < 2; ++axis)
 			walls.push_back(wallBelow<2>(tenths, axis, 0.3)), walls.push_back(wallAbove<2>(tenths, axis, 0.6)); // 0.3 + 3 * 0.1 > 0.6
 		const auto basis = cloudBasis<2>(block<2>(tenths, { 3, 3 }, 3), tenths, Basis::gimp, Boundary<2>(walls));
@@ -184,8 +184,8 @@ namespace {
 		auto       cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
 		Vec<Dim>   base  = Vec<Dim>::Constant(infinity);
 		base[1]          = 0;
-		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0),
-			                          held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
+		std::vector<ConstrainedBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0),
+			                                 held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
 		if (Dim == 3) boxes.push_back(wallBelow<Dim>(model.grid, 2, 0));
 		model.boundary         = Boundary<Dim>(boxes);
 		model.materials        = { { law, 10 } };

@@ -30,15 +30,15 @@ namespace {
 			this->model.grid.period[0] = 0;
 			this->put(block<Dim>(this->model.grid, cellsOf<Dim>(cells, 3, 3), 2), [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Zero()); });
 		}
-		HeldBox<Dim> plane(bool isBase) const
+		ConstrainedBox<Dim> plane(bool isBase) const
 		{
 			Vec<Dim> min = Vec<Dim>::Constant(-infinity), max = -min;
 			if (isBase) max[0] = 0;
 			else
 				min[0] = depth;
-			return HeldBox<Dim>::from(this->model.grid, min, max);
+			return ConstrainedBox<Dim>::from(this->model.grid, min, max);
 		}
-		void absorbAt(const std::vector<HeldBox<Dim>>& boxes)
+		void absorbAt(const std::vector<ConstrainedBox<Dim>>& boxes)
 		{
 			this->model.boundary = Boundary<Dim>({}, boxes);
 			for (const auto& box : boxes) {
@@ -55,8 +55,8 @@ namespace {
 				return std::make_unique<RayleighDamping<Dim>>(*known, this->model.materials, this->model.fBar, this->motion->mass, step);
 			});
 		}
-		void         holdBase() { this->model.boundary = Boundary<Dim>({ fixedBase() }); }
-		HeldBox<Dim> fixedBase() const
+		void                holdBase() { this->model.boundary = Boundary<Dim>({ fixedBase() }); }
+		ConstrainedBox<Dim> fixedBase() const
 		{
 			auto box = plane(true);
 			box.fixed.fill(true);
@@ -270,7 +270,7 @@ namespace {
 		for (const auto& [place, cause] : { std::pair(2., "on both sides"), { -3., "no face" } }) {
 			Ground<2>    ground(4);
 			const double inf = infinity;
-			ground.absorbAt({ HeldBox<2>::from(ground.model.grid, { place, -inf }, { place, inf }) });
+			ground.absorbAt({ ConstrainedBox<2>::from(ground.model.grid, { place, -inf }, { place, inf }) });
 			const auto report = ground.step(0.01);
 			EXPECT_EQ(report.failure, Failure::misplaced);
 			EXPECT_NE(report.cause.find(cause), std::string::npos) << report.cause;

@@ -407,8 +407,8 @@ namespace {
 		{
 			const StepSystem<Dim> system(cloud, model, {}, report);
 			Eigen::VectorXd       d = Random(3).vector(system.nodalSize(), 0.003), direction = Random(4).vector(system.nodalSize(), 1);
-			system.basis.ties.template spread<Dim>(d);
-			system.basis.ties.template spread<Dim>(direction);
+			system.basis.affineConstraints.template distribute<Dim>(d);
+			system.basis.affineConstraints.template distribute<Dim>(direction);
 			NodeMatrix<Dim> K;
 			Couplings       beside;
 			Eigen::VectorXd force, slope = Eigen::VectorXd::Zero(d.size());
@@ -420,7 +420,7 @@ namespace {
 			EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
 			K.multiplyAdd(direction, slope);
 			beside.multiplyAdd(direction, slope);
-			system.basis.ties.template fold<Dim>(slope);
+			system.basis.affineConstraints.template condense<Dim>(slope);
 			const double          h        = 1e-6;
 			const Eigen::VectorXd expected = (forceAt(h) - forceAt(-h)) / (2 * h);
 			return (slope - expected).norm() / expected.norm();
@@ -516,11 +516,11 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		Ground<Dim>   ground;
 		ground.nail().section.stiffness = 1e-3; // so that it does not matter to the soil
-		HeldBox<Dim> all
+		ConstrainedBox<Dim> all
 		        = held<Dim>(ground.model.grid, Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity), std::string("xyz").substr(1, Dim - 1));
-		HeldBox<Dim> far      = wallAbove<Dim>(ground.model.grid, 0, 3);
-		far.displacement[0]   = 0.03;
-		ground.model.boundary = Boundary<Dim>({ all, wallBelow<Dim>(ground.model.grid, 0, 0), far });
+		ConstrainedBox<Dim> far = wallAbove<Dim>(ground.model.grid, 0, 3);
+		far.displacement[0]     = 0.03;
+		ground.model.boundary   = Boundary<Dim>({ all, wallBelow<Dim>(ground.model.grid, 0, 0), far });
 		Load<Dim> load;
 		load.factor = { 1, 1 };
 		ASSERT_TRUE(loadStep(ground.cloud, ground.model, load, ground.solver).converged());

@@ -67,7 +67,7 @@ namespace {
 		}
 		void addWall()
 		{
-			HeldBox<Dim> nothing;
+			ConstrainedBox<Dim> nothing;
 			nothing.lower.setOnes();
 			nothing.upper.setZero();
 			Surface<Dim> side;
@@ -111,7 +111,7 @@ namespace {
 			Eigen::VectorXd d = Eigen::VectorXd::Zero(system.nodalSize());
 			for (int i = 0; i < d.size(); ++i)
 				if (system.dofs.number[i] >= 0) d[i] = x[system.dofs.number[i]];
-			system.basis.ties.template spread<Dim>(d);
+			system.basis.affineConstraints.template distribute<Dim>(d);
 			return d;
 		}
 		static Eigen::VectorXd forces(const StepSystem<Dim>& system, const Eigen::VectorXd& x)
@@ -173,7 +173,7 @@ namespace {
 			Grid<2> grid { 0.5 };
 			grid.axisymmetric = true;
 			Scene<2> scene(grid);
-			scene.model.boundary = Boundary<2>({ HeldBox<2>::ofAxis(scene.model.grid) });
+			scene.model.boundary = Boundary<2>({ ConstrainedBox<2>::ofAxis(scene.model.grid) });
 			scene.model.fBar     = fBar;
 			scene.addWall();
 			EXPECT_LT(scene.error(7), roundOff) << fBar;

@@ -39,13 +39,13 @@ namespace {
 		return cloud;
 	}
 
-	Model<2> modelOf(const std::vector<Material>& materials, std::vector<HeldBox<2>> boxes = {})
+	Model<2> modelOf(const std::vector<Material>& materials, std::vector<ConstrainedBox<2>> boxes = {})
 	{
 		Model<2> model;
 		model.grid.axisymmetric = true;
 		model.materials         = materials;
 		model.newton.tolerance  = 1e-13;
-		boxes.push_back(HeldBox<2>::ofAxis(model.grid));
+		boxes.push_back(ConstrainedBox<2>::ofAxis(model.grid));
 		model.boundary = Boundary<2>(boxes);
 		return model;
 	}
@@ -59,7 +59,7 @@ namespace {
 			for (const auto basis : { Basis::gimp, Basis::linear }) {
 				Model<2> model            = modelOf({ { Hencky(1e6, 0.3), 1 } });
 				model.grid.origin         = { -3, 0.3 };
-				model.boundary            = Boundary<2>({ HeldBox<2>::ofAxis(model.grid) });
+				model.boundary            = Boundary<2>({ ConstrainedBox<2>::ofAxis(model.grid) });
 				model.fBar                = fBar;
 				model.basis               = basis;
 				auto                cloud = tiling(0, { 4.3, 3.1 }, 3);
@@ -84,8 +84,8 @@ namespace {
 		const double height = 3, radius = isConfined ? 3 : 2.37, stretch = 0.8, wall = isConfined ? 1.1 : 1, young = 1e6, nu = 0.3;
 		Model<2>     model;
 		model.grid.axisymmetric = true;
-		std::vector<HeldBox<2>> boxes { wallBelow<2>(model.grid, 1, 0),
-			                        held<2>(model.grid, { -infinity, height }, { infinity, infinity }, "y", { 0, height * (stretch - 1) }) };
+		std::vector<ConstrainedBox<2>> boxes { wallBelow<2>(model.grid, 1, 0),
+			                               held<2>(model.grid, { -infinity, height }, { infinity, infinity }, "y", { 0, height * (stretch - 1) }) };
 		if (isConfined) boxes.push_back(held<2>(model.grid, { radius, -infinity }, { infinity, infinity }, "x", { radius * (wall - 1), 0 }));
 		model           = modelOf({ { Hencky(young, nu), 1 } }, boxes);
 		model.ghost     = { 0.1 };
@@ -191,7 +191,7 @@ namespace {
 		for (const Vec<2>& x : { Vec<2>(2.5, 0.5), Vec<2>(2.5, 1.5), Vec<2>(3.5, 0.5) })
 			addPoint<2>(cloud, x, { 0.5, 0.5 });
 		revolve(cloud);
-		const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, Boundary<2>(std::vector<HeldBox<2>> {}));
+		const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, Boundary<2>(std::vector<ConstrainedBox<2>> {}));
 		const auto alike = [](int) { return VolumeAndModulus { 1, 3 }; };
 		weighGhostFaces<2>(faces, basis, alike, model.grid, 1, GhostScaling::paper);
 		// below the face 0, above c + r (y - 1): the jump of the derivative is r
@@ -208,7 +208,7 @@ namespace {
 	TEST(Axisymmetric, OnlyTheAxisIsFree)
 	{
 		const auto cloud  = tiling(0, { 2, 2 }, 1);
-		const auto motion = [&](const std::vector<HeldBox<2>>& boxes) {
+		const auto motion = [&](const std::vector<ConstrainedBox<2>>& boxes) {
 			Model<2>   model = modelOf({ { Hencky(1e6, 0.3), 1 } }, boxes);
 			const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, model.boundary);
 			return restraint<2>(basis, model.grid, model.boundary).freeMotion;

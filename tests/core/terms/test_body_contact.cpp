@@ -51,7 +51,7 @@ namespace {
 			model.layers           = { 0, 0, 1 };
 			Vec<Dim> down          = Vec<Dim>::Zero();
 			down[1]                = -0.02;
-			std::vector<HeldBox<Dim>> boxes;
+			std::vector<ConstrainedBox<Dim>> boxes;
 			for (int a = 0; a < Dim; ++a) {
 				boxes.push_back(wallBelow<Dim>(model.grid, a, 0));
 				if (a != 1) boxes.push_back(wallAbove<Dim>(model.grid, a, width));

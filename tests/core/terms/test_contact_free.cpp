@@ -19,8 +19,8 @@ namespace {
 			auto& body     = this->add(kind, place, friction);
 			body.free      = 0;
 			FreeBody<Dim> free { 0, place };
-			free.push[1] = -2e4;
-			if (!isRing) free.push[0] = 1e3;
+			free.externalLoad[1] = -2e4;
+			if (!isRing) free.externalLoad[0] = 1e3;
 			for (int i = 0; i < FreeBody<Dim>::unknowns; ++i)
 				free.isGiven[i] = isRing && i != 1;
 			this->contacts.free = { free };
@@ -28,7 +28,8 @@ namespace {
 			        = { [this](const StepContext<Dim>&, const State&) { return std::make_unique<ContactCoupling<Dim>>(this->contacts); } };
 			Vec<Dim> top = Vec<Dim>::Constant(infinity);
 			top[1]       = 0;
-			std::vector<HeldBox<Dim>> base { held<Dim>(this->model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) };
+			std::vector<ConstrainedBox<Dim>> base { held<Dim>(
+				this->model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) };
 			if (isRing) base.push_back(wallBelow<Dim>(this->model.grid, 0, 0));
 			this->model.boundary = Boundary<Dim>(base);
 		}

@@ -40,7 +40,7 @@ namespace {
 			auto& body = this->contacts.bodies[0];
 			body.free  = 0;
 			FreeBody<Dim> free { 0, body.begin.position };
-			free.push.template head<2>() << (body.shape.kind == RigidKind::ball ? 0 : 1e3), -2e4;
+			free.externalLoad.template head<2>() << (body.shape.kind == RigidKind::ball ? 0 : 1e3), -2e4;
 			free.inertia        = inertia * FreeBody<Dim>::Matrix::Identity();
 			this->contacts.free = { free };
 			this->model.coupledTerms
@@ -132,7 +132,9 @@ namespace {
 				EXPECT_LT((load.force - force).norm(), 1e-12 * force.norm());
 				EXPECT_LT((load.torque - moment).norm(), 1e-12 * scene.h * force.norm());
 				for (const auto& free : scene.contacts.free)
-					EXPECT_LT((load.force.head<Dim>() + free.push.template head<Dim>()).norm() + load.torque.norm(), 1e-9 * force.norm());
+					EXPECT_LT(
+					        (load.force.head<Dim>() + free.externalLoad.template head<Dim>()).norm() + load.torque.norm(),
+					        1e-9 * force.norm());
 			}
 	}
 

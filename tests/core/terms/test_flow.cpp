@@ -26,10 +26,10 @@ namespace {
 			model.grid.axisymmetric = axisymmetric;
 			model.materials         = { { Hencky(modulus, 0), 0 } };
 			model.newton.tolerance  = 1e-10;
-			std::vector<HeldBox<Dim>> walls;
+			std::vector<ConstrainedBox<Dim>> walls;
 			for (int a = 0; a < Dim; ++a)
 				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
-			if (axisymmetric) walls.push_back(HeldBox<Dim>::ofAxis(model.grid));
+			if (axisymmetric) walls.push_back(ConstrainedBox<Dim>::ofAxis(model.grid));
 			model.boundary         = Boundary<Dim>(walls);
 			const Index<Dim> count = (2 * size / h).array().ceil().template cast<int>();
 			const Vec<Dim>   half  = 0.5 * size.cwiseQuotient(count.template cast<double>());
@@ -47,7 +47,7 @@ namespace {
 				        water, [this](int) { return model.materials[0].young({}, 0); }, step);
 			} };
 		}
-		void hold(const std::vector<HeldBox<Dim>>& more)
+		void hold(const std::vector<ConstrainedBox<Dim>>& more)
 		{
 			auto walls = model.boundary.boxes();
 			walls.insert(walls.end(), more.begin(), more.end());

@@ -53,7 +53,7 @@ namespace {
 		model.newton.tolerance = 1e-13;
 		Vec<Dim> min           = Vec<Dim>::Constant(-infinity);
 		min[0]                 = 4;
-		std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, min, Vec<Dim>::Constant(infinity), "x", 4 * (lambda - 1) * Vec<Dim>::Unit(0)) };
+		std::vector<ConstrainedBox<Dim>> boxes { held<Dim>(model.grid, min, Vec<Dim>::Constant(infinity), "x", 4 * (lambda - 1) * Vec<Dim>::Unit(0)) };
 		for (int axis = 0; axis < Dim; ++axis)
 			boxes.push_back(wallBelow<Dim>(model.grid, axis, 0));
 		model.boundary = Boundary<Dim>(boxes);

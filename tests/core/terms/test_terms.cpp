@@ -55,11 +55,11 @@ namespace {
 				squares += force(end, d).squaredNorm();
 			return std::sqrt(squares);
 		}
-		void restrain(const typename Term<Dim>::Hold& hold) override
+		void restrain(const typename Term<Dim>::Constrain& constrain) override
 		{
 			for (const auto& end : ends_)
 				for (int a = 0; a < Dim; ++a)
-					if (springs_.stiffness(a, a) > 0) hold(end.node, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+					if (springs_.stiffness(a, a) > 0) constrain(end.node, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 		}
 		void commit(const Eigen::VectorXd& d) override
 		{

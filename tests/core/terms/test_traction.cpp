@@ -70,7 +70,7 @@ namespace {
 		}
 		void rollers(bool onAllSides)
 		{
-			std::vector<HeldBox<Dim>> walls;
+			std::vector<ConstrainedBox<Dim>> walls;
 			for (int a = 0; a < Dim; ++a) {
 				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
 				if (onAllSides && a != 1) walls.push_back(wallAbove<Dim>(model.grid, a, size));
@@ -187,7 +187,7 @@ namespace {
 					x[0] += shift;
 			Block<Dim> block(surface);
 			block.model.grid.period[0] = 3;
-			std::vector<HeldBox<Dim>> walls { wallBelow<Dim>(block.model.grid, 1, 0) };
+			std::vector<ConstrainedBox<Dim>> walls { wallBelow<Dim>(block.model.grid, 1, 0) };
 			if (Dim == 3) walls.push_back(wallBelow<Dim>(block.model.grid, Dim - 1, 0));
 			Vec<Dim> corner = Vec<Dim>::Zero();
 			walls.push_back(held<Dim>(block.model.grid, corner, corner, "xy"));

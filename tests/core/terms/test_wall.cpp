@@ -54,8 +54,8 @@ namespace {
 				for (const char letter : fix)
 					wall->fixed[letter - 'x'] = true;
 			model.walls[int(model.boundary.boxes().size())] = wall;
-			auto         boxes                              = model.boundary.boxes();
-			HeldBox<Dim> nothing;
+			auto                boxes                       = model.boundary.boxes();
+			ConstrainedBox<Dim> nothing;
 			nothing.lower.setOnes();
 			nothing.upper.setZero();
 			boxes.push_back(nothing);
@@ -211,8 +211,8 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const int steps : { 2, 8 }) {
-			Scene<Dim>                scene;
-			std::vector<HeldBox<Dim>> boxes;
+			Scene<Dim>                       scene;
+			std::vector<ConstrainedBox<Dim>> boxes;
 			for (int a = 0; a < Dim; ++a) {
 				boxes.push_back(wallBelow<Dim>(scene.model.grid, a, 0));
 				if (a != 1) boxes.push_back(wallAbove<Dim>(scene.model.grid, a, 1.5));
@@ -290,7 +290,7 @@ namespace {
 			scene.cloud.volume0[p] *= 2 * M_PI * scene.cloud.position[p][0];
 		Wall<2>& foot  = scene.add(flat<2>({ -0.4, 0.1 }, { 2, 0.1 }), "y");
 		auto     boxes = scene.model.boundary.boxes();
-		boxes.push_back(HeldBox<2>::ofAxis(scene.model.grid));
+		boxes.push_back(ConstrainedBox<2>::ofAxis(scene.model.grid));
 		scene.model.boundary = Boundary<2>(boxes);
 		ASSERT_TRUE(scene.step(0, 1, { 0, -10 }).converged());
 		EXPECT_NEAR(foot.reaction[1] / (1e4 * M_PI * std::pow(1.5, 3)), 1, 1e-8);

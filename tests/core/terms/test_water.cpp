@@ -41,7 +41,7 @@ namespace {
 		}
 		void rollers()
 		{
-			std::vector<HeldBox<Dim>> walls;
+			std::vector<ConstrainedBox<Dim>> walls;
 			for (int a = 0; a < Dim; ++a)
 				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
 			for (int a = 0; a < Dim; ++a)
@@ -215,7 +215,7 @@ namespace {
 		Block<Dim>    block(WaterDomain::outside);
 		block.water.pressure = table<Dim>(block.model.grid, [](const Vec<Dim>&) { return 2e4; });
 		block.water.before   = block.water.pressure;
-		std::vector<HeldBox<Dim>> walls;
+		std::vector<ConstrainedBox<Dim>> walls;
 		for (int a = 0; a < Dim; ++a)
 			walls.push_back(wallBelow<Dim>(block.model.grid, a, 0));
 		block.model.boundary = Boundary<Dim>(walls);

@@ -239,34 +239,34 @@ template <int Dim> void BodyContact<Dim>::addWithTangent(const Eigen::VectorXd& 
 	add(d, 1, resistance, nullptr, K, isRough() ? PairJacobian::symmetric : PairJacobian::exact);
 }
 
-template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const
+template <int Dim> void BodyContact<Dim>::constrainAt(const Touching& touching, bool sticks, const typename Term<Dim>::Constrain& constrain) const
 {
-	const Vec<Dim>& normal = Facing<Dim>(touching.now).normal;
-	const auto&     master = facets_[meetingOf(touching.contactPoint).master];
-	const auto      holds  = [&](const Attachment<Dim>& at) {
-                hold(at.node[0], normal, at.inCell());
+	const Vec<Dim>& normal     = Facing<Dim>(touching.now).normal;
+	const auto&     master     = facets_[meetingOf(touching.contactPoint).master];
+	const auto      constrains = [&](const Attachment<Dim>& at) {
+                constrain(at.node[0], normal, at.inCell());
                 for (int a = 0; sticks && a < Dim; ++a)
-                        hold(at.node[0], Vec<Dim>::Unit(a), at.inCell());
+                        constrain(at.node[0], Vec<Dim>::Unit(a), at.inCell());
 	};
-	holds(touching.contactPoint.at);
+	constrains(touching.contactPoint.at);
 	for (const int v : master.pieces[touching.near.piece])
-		holds(*master.at[v]);
+		constrains(*master.at[v]);
 }
 
 /// Each as if the other one stood still.
-template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
 	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);
-		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, hold);
+		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, constrain);
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold)
+template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain& constrain)
 {
 	for (const Touching& touching : look(d).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);
-		holdAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
+		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, constrain);
 	}
 }
 

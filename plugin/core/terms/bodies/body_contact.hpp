@@ -86,8 +86,8 @@ public:
 	bool                        isSymmetric() const override { return !isExact_; }
 	bool                        makeExact() override;
 	std::string                 obstacle() const override { return obstacle_; }
-	void                        restrain(const typename Term<Dim>::Hold&) override;
-	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain&) override;
 	Refusal                     refusal(const Eigen::VectorXd& d) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
@@ -162,7 +162,7 @@ private:
 	void addForces(
 	        const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const;
 	void                    addTangent(const std::vector<PairNode>&, const Tangent&, double factor, Couplings&) const;
-	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	void                    constrainAt(const Touching&, bool sticks, const typename Term<Dim>::Constrain&) const;
 	void                    moveSurfaces(const Positions& now);
 	double                  work(const Eigen::VectorXd& d) const;
 	double                  given(const Eigen::VectorXd& d) const;

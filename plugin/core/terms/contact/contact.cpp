@@ -329,31 +329,31 @@ template <int Dim> void Contact<Dim>::findLost()
 
 /// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then
 /// slips or comes off is for the iterations to find.
-template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
-	const auto holds = [&](const ContactPoint& contactPoint) {
+	const auto constrains = [&](const ContactPoint& contactPoint) {
 		if (system_.bodies[contactPoint.body].free >= 0) return; // it yields
 		const bool     sticks = contactPoint.law.frictionCoefficient > 0 && contactPoint.law.cap > 0;
 		const Vec<Dim> inCell = contactPoint.attached.inCell();
-		hold(contactPoint.attached.node[0], contactPoint.normal, inCell);
+		constrain(contactPoint.attached.node[0], contactPoint.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
-			hold(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
+			constrain(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	};
 	for (const ContactPoint& contactPoint : contactPoints_)
-		if (contactPoint.gap <= tolerance_) holds(contactPoint);
+		if (contactPoint.gap <= tolerance_) constrains(contactPoint);
 	const Eigen::VectorXd none = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size()));
-	forTouching(none, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>&) { holds(contactPoint); });
+	forTouching(none, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>&) { constrains(contactPoint); });
 }
 
-template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold)
+template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain& constrain)
 {
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
 		if (system_.bodies[contactPoint.body].free >= 0) return;
 		const bool     sticks = contactPoint.law.frictionCoefficient > 0 && contactPoint.law.cap > 0 && !touched.slips;
 		const Vec<Dim> inCell = contactPoint.attached.inCell();
-		hold(contactPoint.attached.node[0], contactPoint.normal, inCell);
+		constrain(contactPoint.attached.node[0], contactPoint.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)
-			hold(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
+			constrain(contactPoint.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	});
 }
 

@@ -90,8 +90,8 @@ public:
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
-	void                        restrain(const typename Term<Dim>::Hold&) override;
-	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain&) override;
 	Refusal                     refusal(const Eigen::VectorXd& d) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 

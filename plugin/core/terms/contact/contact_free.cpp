@@ -18,10 +18,10 @@ template <int Dim> struct Balance {
 
 	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 	{
-		residual              = body.inertia * motion - body.push;
-		absoluteContributions = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
+		residual              = body.inertia * motion - body.externalLoad;
+		absoluteContributions = (body.inertia * motion).cwiseAbs() + body.externalLoad.cwiseAbs();
 		for (const auto& contactPoint : contactPoints) {
-			const typename Free::Vector force = Lever<Dim>(contactPoint).moves.transpose() * contactPoint.force;
+			const typename Free::Vector force = RigidBodyJacobian<Dim>(contactPoint).moves.transpose() * contactPoint.force;
 			residual += force, absoluteContributions += force.cwiseAbs();
 			touches = touches || contactPoint.gap <= 0;
 		}
@@ -39,14 +39,14 @@ template <int Dim> struct Balance {
 	double whole(double size) const { return scaled(absoluteContributions, size).norm(); }
 };
 
-/// A body that touches nothing and has no inertia goes by its push to the first place that it meets.
+/// A body that touches nothing and has no inertia goes by its externalLoad to the first place that it meets.
 template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 {
-	Vec<Dim> push = body.push.template head<Dim>();
+	Vec<Dim> externalLoad = body.externalLoad.template head<Dim>();
 	for (int a = 0; a < Dim; ++a)
-		if (body.isGiven[a]) push[a] = 0;
-	if (push.isZero(0)) return 0;
-	const Vec<Dim> along = push.normalized();
+		if (body.isGiven[a]) externalLoad[a] = 0;
+	if (externalLoad.isZero(0)) return 0;
+	const Vec<Dim> along = externalLoad.normalized();
 	double         least = std::numeric_limits<double>::infinity();
 	for (const auto& contactPoint : contactPoints)
 		if (const double speed = along.dot(contactPoint.normal); speed > 1e-3) least = std::min(least, contactPoint.gap / speed);
@@ -79,7 +79,7 @@ template <> FreeBody<3>::Matrix incrementsOf<3>(const FreeBody<3>::Vector& motio
 	return result;
 }
 
-template <int Dim> Lever<Dim>::Lever(const FreeContactPoint<Dim>& contactPoint)
+template <int Dim> RigidBodyJacobian<Dim>::RigidBodyJacobian(const FreeContactPoint<Dim>& contactPoint)
 {
 	constexpr int turns = Turn<Dim>::RowsAtCompileTime;
 	moves << Mat<Dim>::Identity(), turnsArm(contactPoint.arm);
@@ -95,7 +95,7 @@ template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>
 	typename Free::Matrix K          = body.inertia;
 	const auto            increments = incrementsOf<Dim>(body.motion);
 	for (const auto& contactPoint : contactPoints)
-		K += Lever<Dim>(contactPoint).bodyByBody(contactPoint.tangent) * increments;
+		K += RigidBodyJacobian<Dim>(contactPoint).bodyByBody(contactPoint.tangent) * increments;
 	typename Free::Vector scale = Free::Vector::Ones();
 	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
 	for (int i = 0; i < Free::unknowns; ++i)
@@ -149,7 +149,7 @@ private:
 		const double way = wayToSoil(body_, at_.contactPoints);
 		if (!(way > 0)) return false;
 		Vector step               = Vector::Zero();
-		step.template head<Dim>() = (way + 1e-6 * size_) * body_.push.template head<Dim>().normalized();
+		step.template head<Dim>() = (way + 1e-6 * size_) * body_.externalLoad.template head<Dim>().normalized();
 		for (int a = 0; a < Dim; ++a)
 			if (body_.isGiven[a]) step[a] = 0;
 		at_ = seenAt(at_.motion + step);
@@ -229,8 +229,8 @@ bool solveRigidBodyMotion(
 	return body.isAtRest;
 }
 
-template struct Lever<2>;
-template struct Lever<3>;
+template struct RigidBodyJacobian<2>;
+template struct RigidBodyJacobian<3>;
 template bool                solveRigidBodyMotion(FreeBody<2>&, double, const std::function<std::vector<FreeContactPoint<2>>(const FreeBody<2>::Vector&)>&);
 template bool                solveRigidBodyMotion(FreeBody<3>&, double, const std::function<std::vector<FreeContactPoint<3>>(const FreeBody<3>::Vector&)>&);
 template FreeBody<2>::Matrix compliance(const FreeBody<2>&, double, const std::vector<FreeContactPoint<2>>&);

@@ -15,11 +15,10 @@ Mat3   turnsArm(const Vec3& arm);
 template <int Dim> using Turn = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
 
 /// Who owns bodies and moves freely in a step. Its unknowns are a displacement and a turn q about its position, for
-/// which  J q + (forces and moments on the soil) - push = 0.  With a force F that is constant in the step
-/// and q = T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), push = weight and loads + M v_0 / (a T),
-/// and
-/// what the soil gets as its momentum the body loses. Of the highest frequencies (1 - a) / a are left in each step. In
-/// statics J = 0.
+/// which J q + (forces and moments on the soil) - externalLoad = 0. With a force F that is constant in the step and q =
+/// T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), externalLoad = weight and loads + M v_0 / (a T),
+/// and what the soil gets as its momentum the body loses. Of the highest frequencies (1 - a) / a are left in each step.
+/// In statics J = 0.
 template <int Dim> struct FreeBody {
 	static constexpr int unknowns = Dim + Turn<Dim>::RowsAtCompileTime;
 	using Vector                  = Eigen::Matrix<double, unknowns, 1>;
@@ -28,8 +27,8 @@ template <int Dim> struct FreeBody {
 	int                        owner;    ///< in the system
 	Vec<Dim>                   position; ///< at the beginning of the step [m]
 	std::array<bool, unknowns> isGiven {};
-	Matrix                     inertia = Matrix::Zero(); ///< J [N/m], [N m]
-	Vector                     push    = Vector::Zero(); ///< [N], [N m]
+	Matrix                     inertia      = Matrix::Zero(); ///< J [N/m], [N m]
+	Vector                     externalLoad = Vector::Zero(); ///< [N], [N m]
 	/// A first guess, with the values of what is given; then a result [m], [rad].
 	Vector motion    = Vector::Zero();
 	bool   isAtRest  = true; ///< in balance with the soil at the last iterate
@@ -52,13 +51,13 @@ template <int Dim> struct FreeContactPoint {
 /// What a force at a contact point has to do with the unknowns of its body: with B the displacement of the contact
 /// point by the body's, df = tangent (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df +
 /// byPosition du + byBody dq.
-template <int Dim> struct Lever {
+template <int Dim> struct RigidBodyJacobian {
 	using Free = FreeBody<Dim>;
 	Eigen::Matrix<double, Dim, Free::unknowns> moves, turned;
 	Eigen::Matrix<double, Free::unknowns, Dim> byPosition;
 	typename Free::Matrix                      byBody;
 
-	explicit Lever(const FreeContactPoint<Dim>&);
+	explicit RigidBodyJacobian(const FreeContactPoint<Dim>&);
 
 	/// Derivative of the force on the soil by q, and of that on the body by the contact point.
 	Eigen::Matrix<double, Dim, Free::unknowns> forceByBody(const Mat<Dim>& tangent) const { return turned - tangent * moves; }

@@ -114,11 +114,11 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 		for (const ContactPoint* contactPoint : contactPointsOfFree(number)) {
 			all.push_back(seen(*contactPoint, system_.owners[free.owner], d));
 			if (all.back().tangent.isZero(0)) continue;
-			const Lever<Dim> lever(all.back());
+			const RigidBodyJacobian<Dim> jacobian(all.back());
 			for (int n = 0; n < contactPoint->pressed.nodes; ++n) {
 				AtNode<Dim>& node = nodes[contactPoint->pressed.node[n]];
-				node.forces += contactPoint->pressed.weight[n] * lever.forceByBody(all.back().tangent);
-				node.moves += contactPoint->pressed.weight[n] * lever.bodyByPosition(all.back().tangent);
+				node.forces += contactPoint->pressed.weight[n] * jacobian.forceByBody(all.back().tangent);
+				node.moves += contactPoint->pressed.weight[n] * jacobian.bodyByPosition(all.back().tangent);
 			}
 		}
 		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);

@@ -22,7 +22,7 @@ template <int Dim> bool hasSoil(const Attachment<Dim>& attachment, const Index<D
 	return attach(Vec<Dim>(grid.origin + grid.size(attachment.level) * middle), basis, grid, layer).has_value();
 }
 
-/// Planes of symmetry: rows of nodes that are held across them alone.
+/// Planes of symmetry: rows of nodes that are constrained across them alone.
 template <int Dim> class Mirrors {
 public:
 	Mirrors(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const FreeDofs& dofs, int layer) : basis_(basis), grid_(grid), dofs_(dofs), layer_(layer)

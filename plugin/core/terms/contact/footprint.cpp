@@ -17,7 +17,7 @@ template <int Dim> double inCell(const Attachment<Dim>& attachment, int axis) { 
 AlongAxis linear(int cell, double local) { return { cell, 2, { 1 - local, local, 0 } }; }
 
 /// With a share of the splines.
-AlongAxis spread(int cell, double local, double share)
+AlongAxis weightsAlong(int cell, double local, double share)
 {
 	const bool   isLow = local < 0.5;
 	const double t     = isLow ? local : local - 1; // from the middle one of the three nodes
@@ -55,7 +55,7 @@ Footprint<Dim>::Footprint(
 	for (int a = 0; a < Dim; ++a) {
 		if (!(shares[a] > 0) || sideInCell(attachment, a) == 0) continue;
 		const AlongAxis kept = along[a];
-		along[a]             = spread(attachment.cell[a], inCell(attachment, a), shares[a]);
+		along[a]             = weightsAlong(attachment.cell[a], inCell(attachment, a), shares[a]);
 		Footprint  wider;
 		bool       isThere = true;
 		Index<Dim> i       = Index<Dim>::Zero();

@@ -19,7 +19,7 @@ template <int Dim> Index<Dim> nodeOfFace(Index<Dim> cell, int axis, bool isUpper
 	return cell;
 }
 
-template <int Dim> bool holdsFace(const HeldBox<Dim>& box, const Index<Dim>& cell, int axis, bool isUpper)
+template <int Dim> bool holdsFace(const ConstrainedBox<Dim>& box, const Index<Dim>& cell, int axis, bool isUpper)
 {
 	for (int n = 0; n < 1 << (Dim - 1); ++n)
 		if (!box.contains(nodeOfFace<Dim>(cell, axis, isUpper, n))) return false;
@@ -142,7 +142,7 @@ template <int Dim> void Absorption<Dim>::completeDrag(const StepContext<Dim>& st
 	Eigen::VectorXd drag = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
 	for (const auto& [node, dashpot] : dashpots_)
 		drag.template segment<Dim>(Dim * node) = dashpot.drag;
-	step.share.complete(drag);
+	step.ownedNodes.complete(drag);
 	for (auto& [node, dashpot] : dashpots_)
 		dashpot.drag = drag.template segment<Dim>(Dim * node);
 }

@@ -14,7 +14,7 @@ namespace gimpm {
 /// that is what has held them until then, go on acting.
 template <int Dim> struct AbsorbingBoundary {
 	/// Its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp).
-	HeldBox<Dim> box;
+	ConstrainedBox<Dim> box;
 	/// Velocity of the wave from beyond at the start of the step [m/s].
 	Vec<Dim>                incomingBefore = Vec<Dim>::Zero();
 	Vec<Dim>                incoming       = Vec<Dim>::Zero(); ///< the same where forces of the step are looked at

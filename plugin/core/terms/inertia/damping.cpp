@@ -11,11 +11,11 @@ template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const st
                 Eigen::VectorXd       borne  = Eigen::VectorXd::Zero(others.size());
                 for (const auto& each : made)
                         each->addBorne(borne);
-                step.share.complete(borne);
+                step.ownedNodes.complete(borne);
                 return Eigen::VectorXd(others - borne);
 	};
 	const StepContext<Dim> known { step.cloud, step.basis,      step.grid, step.stiffnessOf, step.faces,
-		                       step.dofs,  step.prescribed, imbalance, step.share,       step.division };
+		                       step.dofs,  step.prescribed, imbalance, step.ownedNodes,  step.division };
 	for (const auto& make : makers)
 		made.push_back(make(known));
 	return made;

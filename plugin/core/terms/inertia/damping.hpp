@@ -42,12 +42,13 @@ public:
 protected:
 	/// That the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they are
 	/// right in this process, if not all.
-	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const NodeShare& share = NodeShare::whole()) const
+	double workTaken(
+	        const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const OwnedNodes& ownedNodes = OwnedNodes::whole()) const
 	{
 		Eigen::VectorXd twice = Eigen::VectorXd::Zero(d.size());
 		addBefore(before, twice);
 		add(now, 0, { twice });
-		share.complete(twice);
+		ownedNodes.complete(twice);
 		return twice.dot(d) / 2;
 	}
 };

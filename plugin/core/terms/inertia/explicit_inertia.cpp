@@ -15,7 +15,7 @@ template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const StepContext<
 	const int  anyWay  = int(step.faces.size());
 	const auto loose   = looseOf(motion, step, anyWay);
 	motion.loosePoints = countOfPoints(loose, step);
-	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose, step.share);
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose, step.ownedNodes);
 }
 
 } // namespace
@@ -23,7 +23,7 @@ template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const StepContext<
 template <int Dim>
 ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const StepContext<Dim>& step)
         : motion_(motion)
-        , share_(step.share)
+        , ownedNodes_(step.ownedNodes)
         , copies_(motion, step.division)
         , basis_(step.basis)
         , dofs_(step.dofs)
@@ -35,7 +35,7 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const StepContext<Dim
 	impulse_ = blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
 	damping_                 = dampingOf(motion.damping, step);
 	begin(step);
-	momentum_ = weighedAtNodes(basis_, motion_.mass, atMiddle_, share_);
+	momentum_ = weighedAtNodes(basis_, motion_.mass, atMiddle_, ownedNodes_);
 	middle_   = step.prescribed / motion_.duration;
 	findMiddle();
 	meet();
@@ -52,10 +52,10 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const StepContext<Dim>& step
 	if (!damping_.empty()) {
 		Eigen::VectorXd drag = zero;
 		start_               = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step);
-		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_), dofs_, start_);
+		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity, ownedNodes_), dofs_, start_);
 		for (const auto& each : damping_)
 			each->addBefore(start_, drag);
-		share_.complete(drag);
+		ownedNodes_.complete(drag);
 		force -= drag;
 	}
 	solve(force, dofs_, a);
@@ -71,7 +71,7 @@ template <int Dim> void ExplicitInertia<Dim>::findMiddle()
 	constexpr double      roundOff = 1e-12;
 	const Eigen::VectorXd momentum = momentum_ + impulse_;
 	solve(momentum, dofs_, middle_);
-	blow_ = blowOf(mass_, middle_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
+	blow_ = blowOf(mass_, middle_, momentum, roundOff, [&](Eigen::Index i) { return isConstrained(i); });
 }
 
 template <int Dim> void ExplicitInertia<Dim>::meet()
@@ -88,7 +88,7 @@ template <int Dim> void ExplicitInertia<Dim>::meet()
 template <int Dim> void ExplicitInertia<Dim>::findJump()
 {
 	const Eigen::VectorXd all = blow_ + impulse_;
-	if (!all.isZero(0)) solve(all, allFree<Dim>(all.size(), basis_.ties), jump_);
+	if (!all.isZero(0)) solve(all, allFree<Dim>(all.size(), basis_.affineConstraints), jump_);
 }
 
 template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
@@ -113,14 +113,14 @@ template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen:
 		each->add(middle_, 0, { force });
 		each->addDiagonal(C);
 	}
-	if (!damping_.empty()) share_.complete(force), share_.complete(C);
+	if (!damping_.empty()) ownedNodes_.complete(force), ownedNodes_.complete(C);
 	C *= T / 2;
 	const Eigen::VectorXd driving = imbalance - force;
 	solve(driving, dofs_, acceleration_, damping_.empty() ? nullptr : &C);
 	end_                 = middle_ + T / 2 * acceleration_;
 	Eigen::VectorXd held = mass_ * acceleration_ - driving + blow_ / T;
 	for (Eigen::Index i = 0; i < held.size(); ++i)
-		if (!isHeld(i)) held[i] = 0;
+		if (!isConstrained(i)) held[i] = 0;
 	return held;
 }
 
@@ -130,7 +130,7 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	share_.complete(ghost);
+	ownedNodes_.complete(ghost);
 	motion_.impactWork = energyOfBlow<NodalMass<Dim>>(mass_, middle_, blow_ + impulse_, jump_, middle_);
 	// It acts in the second half, on the velocities' way from the one to the other.
 	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost);

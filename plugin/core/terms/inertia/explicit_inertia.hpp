@@ -40,10 +40,10 @@ private:
 	void meet();
 	void findJump();
 	void solve(const Eigen::VectorXd& right, const FreeDofs&, Eigen::VectorXd& x, const Eigen::VectorXd* C = nullptr);
-	bool isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
+	bool isConstrained(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
-	const NodeShare&                           share_;
+	const OwnedNodes&                          ownedNodes_;
 	const MotionOfCopies<Dim>                  copies_;
 	const CloudBasis<Dim>&                     basis_;
 	const FreeDofs&                            dofs_;

@@ -156,11 +156,11 @@ template <int Dim> void EdgeSprings<Dim>::addBefore(Eigen::VectorXd& force)
 		addAttachedForce<Dim>(attached_[i], forceAt(i, Vec<Dim>::Zero(), edge_.before), { force });
 }
 
-template <int Dim> void EdgeSprings<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void EdgeSprings<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
 	for (const auto& at : attached_)
 		for (int axis = 0; axis < Dim; ++axis)
-			hold(at.node[0], Vec<Dim>::Unit(axis), at.inCell());
+			constrain(at.node[0], Vec<Dim>::Unit(axis), at.inCell());
 }
 
 template <int Dim> void EdgeSprings<Dim>::commit(const Eigen::VectorXd& d)

@@ -68,7 +68,7 @@ public:
 	void                        addBefore(Eigen::VectorXd& force) override;
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) override { return this->sizeOfForce(d); }
-	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:

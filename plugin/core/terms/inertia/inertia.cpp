@@ -11,7 +11,7 @@ template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const StepContext<Dim>& step)
         : motion_(motion)
         , division_(step.division)
-        , share_(step.share)
+        , ownedNodes_(step.ownedNodes)
         , copies_(motion, step.division)
         , basis_(step.basis)
         , dofs_(step.dofs)
@@ -20,7 +20,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const StepContext<Dim>& step)
         , h_(step.grid.cellSize)
         , loose_(looseOf(motion, step))
         , mass_(massMatrix(motion, step, loose_))
-        , nodal_(mass_, basis_.ties)
+        , nodal_(mass_, basis_.affineConstraints)
         , iterates_(motion.ghostMass > 0)
 {
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
@@ -36,7 +36,7 @@ template <int Dim> void Inertia<Dim>::findExtent(const StepContext<Dim>& step)
 	motion_.loosePoints = countOfPoints(loose_, step);
 	if (motion_.loosePoints == 0) return;
 	extent_ = std::make_unique<MassMatrix<Dim>>(step.basis.nodes.size(), extentOf(loose_, motion_, step), 1);
-	extent_->complete(share_, step.basis.nodes);
+	extent_->complete(ownedNodes_, step.basis.nodes);
 }
 
 /// It takes part at the end of a step, as long as cells are loose.
@@ -63,12 +63,12 @@ template <int Dim> void Inertia<Dim>::findStart(const StepContext<Dim>& step)
 	imbalance_ = all - contact;
 	neglected_ = imbalance_ - nodal_ * acceleration_;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
-		if (isHeld(i)) neglected_[i] = 0;
-		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
+		if (isConstrained(i)) neglected_[i] = 0;
+		if (isConstrained(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
 	}
 }
 
-/// Of all forces as the step begins, also at held nodes.
+/// Of all forces as the step begins, also at constrained nodes.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<Dim>& step) const
 {
 	Eigen::VectorXd all = step.imbalance();
@@ -76,28 +76,28 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<D
 		Eigen::VectorXd damping = Eigen::VectorXd::Zero(all.size());
 		for (const auto& each : damping_)
 			each->addBefore(velocity_, damping);
-		share_.complete(damping);
+		ownedNodes_.complete(damping);
 		all -= damping;
 	}
-	basis_.ties.template fold<Dim>(all);
+	basis_.affineConstraints.template condense<Dim>(all);
 	return all;
 }
 
-/// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed
-/// them by the difference.
+/// Where nodes are constrained, also what the velocities would be if they were not: the blow of what holds them has
+/// changed them by the difference.
 template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 {
 	const double          roundOff = motion_.exactness;
-	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_);
-	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration, share_) : Eigen::VectorXd();
-	const FreeDofs        all      = allFree<Dim>(momentum.size(), basis_.ties);
+	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity, ownedNodes_);
+	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration, ownedNodes_) : Eigen::VectorXd();
+	const FreeDofs        all      = allFree<Dim>(momentum.size(), basis_.affineConstraints);
 	const bool            together = iterates_ && dofs_.count < all.count;
 	Eigen::VectorXd       before   = Eigen::VectorXd::Zero(momentum.size());
 	std::vector<Side>     sides    = { { momentum, dofs_, velocity_ } };
 	if (withAcceleration) sides.push_back({ carried, dofs_, expected_ });
 	if (together) sides.push_back({ momentum, all, before });
 	solve(sides);
-	blow_ = blowOf(nodal_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
+	blow_ = blowOf(nodal_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isConstrained(i); });
 	if (blow_.isZero(0)) return;
 	if (together) jump_ = velocity_ - before;
 	else
@@ -111,7 +111,7 @@ template <int Dim> void Inertia<Dim>::mend(const StepContext<Dim>& step, bool wi
 	const auto torn = tornOf(loose_, velocity_, motion_, step);
 	if (division_.sum(double(torn.size())) == 0) return;
 	mass_       = massMatrix(motion_, step, loose_, torn);
-	nodal_      = NodalMass<Dim>(mass_, basis_.ties);
+	nodal_      = NodalMass<Dim>(mass_, basis_.affineConstraints);
 	iterates_   = true;
 	factorised_ = {};
 	jump_.setZero();
@@ -132,15 +132,16 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 	return -resistance;
 }
 
-/// (M + M_g) x = right at the free degrees of freedom, with the values that the held ones have. Conjugate gradients
-/// where ghost mass bounds the condition number; for little of it, or points that lie alone, the factor is cheaper.
+/// (M + M_g) x = right at the free degrees of freedom, with the values that the constrained ones have. Conjugate
+/// gradients where ghost mass bounds the condition number; for little of it, or points that lie alone, the factor is
+/// cheaper.
 template <int Dim> void Inertia<Dim>::solve(const std::vector<Side>& sides)
 {
 	constexpr int worthwhile = 300;
 	iterates_                = iterates_ && nodal_.solve(sides, { motion_.exactness, worthwhile }); // else there is a factor in this step
 	if (!iterates_) solveByFactor(sides);
 	for (const Side& side : sides)
-		basis_.ties.template spread<Dim>(side.x);
+		basis_.affineConstraints.template distribute<Dim>(side.x);
 }
 
 template <int Dim> void Inertia<Dim>::solveByFactor(const std::vector<Side>& sides)
@@ -225,7 +226,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	if (scheme.isAlpha()) {
 		const Eigen::VectorXd weighted = nodal_ * (ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
 		for (Eigen::Index i = 0; i < force.size(); ++i)
-			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
+			if (!isConstrained(i)) force[i] = weighted[i]; // those at constrained nodes are reactions at the end of the step
 	}
 	force += blow_ / motion_.duration;
 	if (extent_) force += ofExtent(a);
@@ -245,7 +246,7 @@ template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	Eigen::VectorXd force = nodal_ * accelerationAt(d);
 	for (Eigen::Index i = 0; i < force.size(); ++i)
-		if (isHeld(i)) force[i] = 0; // they are part of the reactions
+		if (isConstrained(i)) force[i] = 0; // they are part of the reactions
 	double squares = force.squaredNorm();
 	for (const auto& each : damping_)
 		squares += std::pow(each->fromOutside(velocityAt(d)), 2);
@@ -260,7 +261,7 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 	const auto       moved    = (d.cwiseAbs() + T * velocity_.cwiseAbs()).eval();
 	absoluteContributions += factor * mass_.absoluteTimes(moved);
 	if (extent_) absoluteContributions += factor * extent_->absoluteTimes(moved);
-	basis_.ties.template fold<Dim>(absoluteContributions);
+	basis_.affineConstraints.template condense<Dim>(absoluteContributions);
 }
 
 /// Bodies that meet might move far into each other by themselves, and what touches as the step begins would not be what
@@ -270,21 +271,21 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::inertialPredictor() const
 	const double    T = motion_.duration;
 	Eigen::VectorXd d = T * velocity_ + T * T / 2 * expected_;
 	for (Eigen::Index i = 0; i < d.size(); ++i)
-		if (isHeld(i)) d[i] = prescribed_[i];
-	basis_.ties.template spread<Dim>(d);
+		if (isConstrained(i)) d[i] = prescribed_[i];
+	basis_.affineConstraints.template distribute<Dim>(d);
 	if (!motion_.bodies || !motion_.bodies->acting) return d;
 	Eigen::VectorXd contact = Eigen::VectorXd::Zero(d.size()), stopping = nodal_ * accelerationAt(prescribed_);
 	motion_.bodies->acting->addUnweighted(&d, contact);
 	for (Eigen::Index i = 0; i < d.size(); ++i)
-		if (isHeld(i)) contact[i] = stopping[i] = 0;
+		if (isConstrained(i)) contact[i] = stopping[i] = 0;
 	return contact.norm() > stopping.norm() ? prescribed_ : d;
 }
 
-template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold)
+template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
 	for (int n = 0; n < mass_.nodes(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+			constrain(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 }
 
 /// What one step leaves out of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
@@ -323,8 +324,9 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::growthAt(const Eigen::VectorXd&
 	return motion_.duration * ((1 - gamma) * acceleration_ + gamma * withoutContact(d) + pushedAt(d).acceleration);
 }
 
-/// Work of the mean of the forces at both ends, those of equilibrium at nodes that are held, less what the kinetic
-/// energy of the nodes grows by: what a new grid takes and, where equilibrium is weighed, what the scheme damps.
+/// Work of the mean of the forces at both ends, those of equilibrium at nodes that are constrained, less what the
+/// kinetic energy of the nodes grows by: what a new grid takes and, where equilibrium is weighed, what the scheme
+/// damps.
 template <int Dim> double Inertia<Dim>::gridWork(const Eigen::VectorXd& d)
 {
 	const auto& scheme = motion_.scheme;
@@ -335,7 +337,7 @@ template <int Dim> double Inertia<Dim>::gridWork(const Eigen::VectorXd& d)
 	const Eigen::VectorXd weighed
 	        = nodal_ * ((1 - scheme.alphaM) / weight * others + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * first;
 	for (Eigen::Index i = 0; i < last.size(); ++i)
-		if (!isHeld(i)) last[i] = weighed[i];
+		if (!isConstrained(i)) last[i] = weighed[i];
 	return d.dot((first + last) / 2 + pushedAt(d).force) - (velocity_ + growth / 2).dot(nodal_ * growth);
 }
 
@@ -345,7 +347,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = withoutContact(d) + pushedAt(d).acceleration, growth = jump_ + growthAt(d);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	share_.complete(ghost);
+	ownedNodes_.complete(ghost);
 	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
 	motion_.gridWork             = gridWork(d);
 	const Eigen::VectorXd looked = velocityAt(d);

@@ -7,11 +7,11 @@
 namespace gimpm {
 
 /// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of
-/// (M + M_g) v = sum of S m v_p, held ones those that the step prescribes, by a blow where points have brought others
-/// along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where the
-/// scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a
-/// step without inertia. Cells whose points are too few also resist accelerations by the inertia of their extent: else
-/// what the points do not see of their nodes' motion has neither mass nor, where soil is torn, any stiffness, and
+/// (M + M_g) v = sum of S m v_p, constrained ones those that the step prescribes, by a blow where points have brought
+/// others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
+/// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in
+/// a step without inertia. Cells whose points are too few also resist accelerations by the inertia of their extent:
+/// else what the points do not see of their nodes' motion has neither mass nor, where soil is torn, any stiffness, and
 /// Newton's method goes round. A body in free fall does not feel it.
 template <int Dim> class Inertia : public Term<Dim> {
 public:
@@ -24,7 +24,7 @@ public:
 	bool                        isSymmetric() const override;
 	std::string                 obstacle() const override;
 	double                      fromOutside(const Eigen::VectorXd& d) override;
-	void                        restrain(const typename Term<Dim>::Hold&) override;
+	void                        restrain(const typename Term<Dim>::Constrain&) override;
 	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
@@ -67,11 +67,11 @@ private:
 	Eigen::VectorXd growthAt(const Eigen::VectorXd& d);       // of velocities, without that by a blow
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofExtent(const Eigen::VectorXd& acceleration) const;
-	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
+	bool            isConstrained(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
 	const Division&                            division_;
-	const NodeShare&                           share_;
+	const OwnedNodes&                          ownedNodes_;
 	const MotionOfCopies<Dim>                  copies_;
 	const CloudBasis<Dim>&                     basis_;
 	const FreeDofs&                            dofs_;
@@ -87,9 +87,9 @@ private:
 	bool                                       isSingular_ = false;
 	// Of the solvers of the motion, in this step.
 	std::array<bool, Dim + 1> factorised_ {};
-	// At the start, without contact, where the scheme asks for it; zero at held nodes.
+	// At the start, without contact, where the scheme asks for it; zero at constrained nodes.
 	Eigen::VectorXd imbalance_;
-	// Forces at the start beyond those of acceleration_; zero at held nodes.
+	// Forces at the start beyond those of acceleration_; zero at constrained nodes.
 	Eigen::VectorXd neglected_;
 	// At the start, without what contact does to the latter.
 	Eigen::VectorXd velocity_, acceleration_;

@@ -68,21 +68,21 @@ template <int Dim> void MassMatrix<Dim>::lump(const std::vector<LooseCell<Dim>>&
 }
 
 /// Values, and which there are, a bit for each code.
-template <int Dim> void MassMatrix<Dim>::complete(const NodeShare& share, const std::vector<Key>& nodes)
+template <int Dim> void MassMatrix<Dim>::complete(const OwnedNodes& ownedNodes, const std::vector<Key>& nodes)
 {
-	if (share.isWhole()) return;
-	std::vector<int> start(share.start);
+	if (ownedNodes.isWhole()) return;
+	std::vector<int> start(ownedNodes.start);
 	for (int& row : start)
 		row *= codes;
-	share.processes.gather(value_.data(), start.data());
+	ownedNodes.processes.gather(value_.data(), start.data());
 	Eigen::VectorXd bits(nodes.size()); // they are told as they are
-	for (int a = share.first(); a < share.last(); ++a) {
+	for (int a = ownedNodes.first(); a < ownedNodes.last(); ++a) {
 		std::uint64_t ofNode = 0;
 		for (int code = 0; code < codes; ++code)
 			ofNode |= std::uint64_t(neighbour_[std::size_t(a) * codes + code] >= 0) << code;
 		std::memcpy(&bits[a], &ofNode, sizeof ofNode);
 	}
-	share.complete(bits);
+	ownedNodes.complete(bits);
 	NodeMatrix<Dim> pattern; // without values
 	pattern.reset(nodes, true, {}, { 0, 0 });
 	for (int a = 0; a < int(nodes.size()); ++a) {
@@ -133,7 +133,7 @@ template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, i
 	for (int n = 0; n < nodes(); ++n)
 		if (dofs.number[Dim * n + axis] >= 0) number[n] = count++;
 	std::vector<std::vector<std::pair<int, double>>> columns(count);
-	const MastersOf                                  masters(nodes(), dofs.ties);
+	const MastersOf                                  masters(nodes(), dofs.affineConstraints);
 	forEntries([&](int a, int b, int, double m) {
 		masters.eachPair(a, b, [&](int p, int q, double part) {
 			if (number[p] < 0 || number[q] < 0 || (a == b && p < q)) return;

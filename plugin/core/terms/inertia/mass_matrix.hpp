@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The mass of the points on the nodes, consistent with the basis functions, with ghost mass.
 #pragma once
-#include "core/parallel/node_share.hpp"
+#include "core/parallel/owned_nodes.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/inertia/loose_cells.hpp"
 
@@ -28,7 +28,7 @@ public:
 	void lump(const std::vector<LooseCell<Dim>>&, double share);
 
 	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
-	void complete(const NodeShare&, const std::vector<Key>& nodes);
+	void complete(const OwnedNodes&, const std::vector<Key>& nodes);
 
 	int nodes() const { return int(neighbour_.size()) / codes; }
 

@@ -84,7 +84,7 @@ std::vector<LooseCell<Dim>> tornOf(
         const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>& motion, const StepContext<Dim>& step)
 {
 	const auto&                 leaves = step.basis.populatedLeaves();
-	const MastersOf             masters(int(step.basis.nodes.size()), &step.basis.ties);
+	const MastersOf             masters(int(step.basis.nodes.size()), &step.basis.affineConstraints);
 	std::vector<LooseCell<Dim>> torn;
 	for (const auto& cell : loose) {
 		const double   size = step.grid.size(Grid<Dim>::level(leaves[step.basis.leaf(cell.cell)]));
@@ -94,10 +94,10 @@ std::vector<LooseCell<Dim>> tornOf(
 			LooseCell<Dim> free  = cell;
 			double         least = Motion<Dim>::infinite, most = -least;
 			for (int& node : free.node) {
-				const double v      = velocity[Dim * node + axis];
-				bool         isHeld = false;
-				masters.each(node, [&](int master, double) { isHeld = isHeld || step.dofs.number[Dim * master + axis] < 0; });
-				if (isHeld) node = -1;
+				const double v             = velocity[Dim * node + axis];
+				bool         isConstrained = false;
+				masters.each(node, [&](int master, double) { isConstrained = isConstrained || step.dofs.number[Dim * master + axis] < 0; });
+				if (isConstrained) node = -1;
 				else
 					least = std::min(least, v), most = std::max(most, v);
 			}
@@ -114,20 +114,21 @@ MassMatrix<Dim> massMatrix(
 {
 	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose);
 	M.lump(torn, ofHalfACell);
-	M.complete(step.share, step.basis.nodes);
+	M.complete(step.ownedNodes, step.basis.nodes);
 	return M;
 }
 
 template <int Dim>
-Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare& share)
+Eigen::VectorXd weighedAtNodes(
+        const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const OwnedNodes& ownedNodes)
 {
 	std::vector<Vec<Dim>> weighted(ofPoints.size());
 	for (std::size_t p = 0; p < weighted.size(); ++p)
 		weighted[p] = mass[p] * ofPoints[p];
 	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
 	addPointForces(basis, weighted, sum);
-	share.complete(sum);
-	basis.ties.template fold<Dim>(sum);
+	ownedNodes.complete(sum);
+	basis.affineConstraints.template condense<Dim>(sum);
 	return sum;
 }
 
@@ -138,7 +139,7 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 	for (const auto& base : bases)
 		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
 			for (int a = 0; a < Dim; ++a)
-				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(step.basis.nodes[n], a)) x[Dim * n + a] = (base.*value)[a];
+				if (step.dofs.number[Dim * n + a] < 0 && base.box.constrains(step.basis.nodes[n], a)) x[Dim * n + a] = (base.*value)[a];
 	return x;
 }
 
@@ -152,7 +153,7 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 	                    const Motion<Dim>&, const StepContext<Dim>&, const std::vector<LooseCell<Dim>>&, const std::vector<LooseCell<Dim>>&);              \
 	template bool begins(const Motion<Dim>&, const Division&);                                                                                             \
 	template class MotionOfCopies<Dim>;                                                                                                                    \
-	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare&);           \
+	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const OwnedNodes&);          \
 	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const StepContext<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How points move, and what the schemes in time have in common: masses, momenta, and blows of held nodes.
+// How points move, and what the schemes in time have in common: masses, momenta, and blows of constrained nodes.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
 #include "core/terms/contact/contact.hpp"
@@ -11,11 +11,11 @@ namespace gimpm {
 
 template <int Dim> struct BodyContacts;
 
-/// Held nodes that move by a history.
+/// Constrained nodes that move by a history.
 template <int Dim> struct MovingBase {
-	HeldBox<Dim> box;
-	Vec<Dim>     velocity;     ///< as the step begins [m/s]
-	Vec<Dim>     acceleration; ///< mean of the step [m/s2]
+	ConstrainedBox<Dim> box;
+	Vec<Dim>            velocity;     ///< as the step begins [m/s]
+	Vec<Dim>            acceleration; ///< mean of the step [m/s2]
 };
 
 /// How the points of a cloud move, in its order, and how the next step advances that.
@@ -28,7 +28,7 @@ template <int Dim> struct Motion {
 	std::vector<Vec<Dim>>     velocity {};          ///< [m/s]
 	std::vector<Vec<Dim>>     acceleration {};      ///< [m/s2], a result; all zero: the motion begins
 	double                    ghostWork   = 0;      ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	double                    impactWork  = 0;      ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
+	double                    impactWork  = 0;      ///< that constrained nodes have taken in it by their blow, beyond what they have worked with it [J]
 	int                       loosePoints = 0;      ///< in cells whose points do not tell the velocities of their nodes, as that step began
 	double                    gridWork    = 0; ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
 	double                    exactness   = 1e-13;        ///< of velocities and accelerations of the nodes, of the momenta of those of the points
@@ -86,21 +86,21 @@ MassMatrix<Dim> massMatrix(const Motion<Dim>&, const StepContext<Dim>&, const st
 
 /// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
 template <int Dim>
-Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare& share);
+Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const OwnedNodes& ownedNodes);
 
 template <int Dim> using OfBase = Vec<Dim> MovingBase<Dim>::*;
 
-/// A value of the held degrees of freedom.
+/// A value of the constrained degrees of freedom.
 template <int Dim> Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>&, const StepContext<Dim>&);
 
-/// The impulse by which held nodes get `velocity`, where that is more than round-off, of the largest momentum.
-template <class Mass, class IsHeld>
-Eigen::VectorXd blowOf(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& momentum, double roundOff, IsHeld&& isHeld)
+/// The impulse by which constrained nodes get `velocity`, where that is more than round-off, of the largest momentum.
+template <class Mass, class IsConstrained>
+Eigen::VectorXd blowOf(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& momentum, double roundOff, IsConstrained&& isConstrained)
 {
 	Eigen::VectorXd blow  = M * velocity - momentum;
 	const double    least = roundOff * momentum.template lpNorm<Eigen::Infinity>();
 	for (Eigen::Index i = 0; i < blow.size(); ++i)
-		if (!isHeld(i) || std::abs(blow[i]) <= least) blow[i] = 0;
+		if (!isConstrained(i) || std::abs(blow[i]) <= least) blow[i] = 0;
 	return blow;
 }
 

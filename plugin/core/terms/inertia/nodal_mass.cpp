@@ -35,21 +35,21 @@ template <int Dim, class F> void forDofs(int side, std::size_t sides, int nodes,
 template <int Dim>
 NodalMass<Dim>::NodalMass(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
-        const std::vector<LooseCell<Dim>>& loose, const NodeShare& share)
+        const std::vector<LooseCell<Dim>>& loose, const OwnedNodes& ownedNodes)
 {
 	if (faces.empty()) {
 		lumped_ = lumped(basis, masses);
-		share.complete(lumped_);
+		ownedNodes.complete(lumped_);
 		return;
 	}
 	MassMatrix<Dim> mass(basis, masses, faces, h, loose, lumpedShare);
-	mass.complete(share, basis.nodes);
+	mass.complete(ownedNodes, basis.nodes);
 	*this = NodalMass(mass);
 }
 
-template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const Ties& ties) : lumped_(mass.nodes(), 0)
+template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const AffineConstraints& affineConstraints) : lumped_(mass.nodes(), 0)
 {
-	const MastersOf masters(mass.nodes(), &ties);
+	const MastersOf masters(mass.nodes(), &affineConstraints);
 	auto& [value, first, neighbour, upper] = rows_;
 	first.assign(mass.nodes() + 1, 0);
 	const auto forBoth = [&](auto&& f) {
@@ -57,7 +57,7 @@ template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const 
 			masters.eachPair(a, b, [&](int p, int q, double part) { f(p, q, part * m); });
 			if (b != a) masters.eachPair(b, a, [&](int p, int q, double part) { f(p, q, part * m); });
 		});
-		for (const int node : ties.node)
+		for (const int node : affineConstraints.node)
 			f(node, node, 0);
 	};
 	forBoth([&counts = first](int a, int, double) { ++counts[a + 1]; });
@@ -140,8 +140,8 @@ template <int Dim> void NodalMass<Dim>::keepMomentum(const Side& side, const Eig
 {
 	Eigen::Map<const Eigen::Array<int, Dim, Eigen::Dynamic>> numbers(side.dofs.number.data(), Dim, rows_.nodes());
 	Eigen::Array<bool, Dim, Eigen::Dynamic>                  areFree = numbers >= 0;
-	for (std::size_t t = 0; side.dofs.ties && t < side.dofs.ties->node.size(); ++t)
-		areFree.col(side.dofs.ties->node[t]) = true;
+	for (std::size_t t = 0; side.dofs.affineConstraints && t < side.dofs.affineConstraints->node.size(); ++t)
+		areFree.col(side.dofs.affineConstraints->node[t]) = true;
 	const Eigen::Array<bool, Dim, 1> isFree = areFree.rowwise().all();
 	if (!isFree.any()) return;
 	const Eigen::VectorXd        left = rest(side, C);

@@ -9,10 +9,10 @@
 namespace gimpm {
 
 /// All degrees of freedom, as of a body that nothing holds, but those of tied nodes.
-template <int Dim> FreeDofs allFree(Eigen::Index size, const Ties& ties)
+template <int Dim> FreeDofs allFree(Eigen::Index size, const AffineConstraints& affineConstraints)
 {
-	FreeDofs all { std::vector<int>(size, 0), int(size), ties.empty() ? nullptr : &ties };
-	for (const int node : ties.node)
+	FreeDofs all { std::vector<int>(size, 0), int(size), affineConstraints.empty() ? nullptr : &affineConstraints };
+	for (const int node : affineConstraints.node)
 		for (int a = 0; a < Dim; ++a, --all.count)
 			all.number[Dim * node + a] = -1;
 	return all;
@@ -27,17 +27,17 @@ public:
 	/// knows all points.
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
-	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare& share = NodeShare::whole());
+	        const std::vector<LooseCell<Dim>>& loose = {}, const OwnedNodes& ownedNodes = OwnedNodes::whole());
 	/// With ties it is P^T M P, where P gives all nodes from those that are not tied: the rows of tied nodes are
 	/// zero.
-	explicit NodalMass(const MassMatrix<Dim>&, const Ties& = {});
+	explicit NodalMass(const MassMatrix<Dim>&, const AffineConstraints& = {});
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node
 
 	struct Side {
 		const Eigen::VectorXd& right;
 		const FreeDofs&        dofs;
-		Eigen::VectorXd&       x; ///< comes with the values of the held degrees of freedom
+		Eigen::VectorXd&       x; ///< comes with the values of the constrained degrees of freedom
 	};
 	struct Effort {
 		double tolerance = 1e-13; ///< of the right side, about; momentum is as exact

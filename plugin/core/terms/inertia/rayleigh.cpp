@@ -8,10 +8,10 @@ namespace gimpm {
 template <int Dim>
 RayleighDamping<Dim>::RayleighDamping(
         Rayleigh& settings, const std::vector<Material>& materials, bool fBar, const std::vector<double>& masses, const StepContext<Dim>& step)
-        : settings_(settings), share_(step.share)
+        : settings_(settings), ownedNodes_(step.ownedNodes)
 {
 	const auto points = stepPoints(step.cloud, materials, step.basis, fBar);
-	C_.reset(step.basis.nodes, points.isSymmetric, step.grid, share_.range());
+	C_.reset(step.basis.nodes, points.isSymmetric, step.grid, ownedNodes_.range());
 	markPointPattern(step.basis, C_);
 	if (settings.beta > 0) {
 		const Eigen::VectorXd still   = Eigen::VectorXd::Zero(Dim * step.basis.nodes.size());
@@ -48,7 +48,7 @@ template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, doub
 
 template <int Dim> void RayleighDamping<Dim>::commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now)
 {
-	settings_.work = this->workTaken(d, before, now, share_);
+	settings_.work = this->workTaken(d, before, now, ownedNodes_);
 }
 
 template class RayleighDamping<2>;

@@ -27,10 +27,10 @@ public:
 	void        commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) override;
 
 private:
-	Rayleigh&        settings_;
-	const NodeShare& share_;
-	NodeMatrix<Dim>  C_;
-	std::string      obstacle_;
+	Rayleigh&         settings_;
+	const OwnedNodes& ownedNodes_;
+	NodeMatrix<Dim>   C_;
+	std::string       obstacle_;
 };
 
 } // namespace gimpm

@@ -79,7 +79,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
         : water_(water)
         , basis_(step.basis)
         , h_(step.grid.cellSize)
-        , share_(step.share)
+        , ownedNodes_(step.ownedNodes)
         , division_(step.division)
         , faces_(step.faces)
         , near_(int(step.basis.nodes.size()))
@@ -286,7 +286,7 @@ template <int Dim> double Flow<Dim>::workOn(const State& end) const
 	auto                               twice = end.map().zeros(), absoluteContributions = twice;
 	for (const State* state : { &start, &end })
 		addCoupled(*state, { twice, absoluteContributions });
-	share_.complete(twice[0]);
+	ownedNodes_.complete(twice[0]);
 	return -twice[0].dot(end.displacements()) / 2;
 }
 

@@ -88,7 +88,7 @@ private:
 	SoilWater<Dim>&              water_;
 	const CloudBasis<Dim>&       basis_;
 	double                       h_;
-	const NodeShare&             share_;
+	const OwnedNodes&            ownedNodes_;
 	const Division&              division_;
 	std::vector<GhostFace<Dim>>  faces_;
 	NearNodes<Dim>               near_;

@@ -99,7 +99,7 @@ template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step
 					push[Dim * patch.node[n] + a] += b, size[Dim * patch.node[n] + a] += std::abs(b);
 				}
 		}
-	step.share.complete(push), step.share.complete(size);
+	step.ownedNodes.complete(push), step.ownedNodes.complete(size);
 	for (Eigen::Index i = 0; i < push.size(); ++i)
 		if (step.dofs.number[i] >= 0 && std::abs(push[i]) > 1e-9 * size[i]) return "";
 	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";

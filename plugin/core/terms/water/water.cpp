@@ -153,7 +153,7 @@ std::array<double, windowNodes<Dim>> gainBeyond(
 
 template <int Dim>
 WaterForce<Dim>::WaterForce(Water<Dim>& water, const StepContext<Dim>& step)
-        : water_(water), basis_(step.basis), grid_(step.grid), dofs_(step.dofs), share_(step.share)
+        : water_(water), basis_(step.basis), grid_(step.grid), dofs_(step.dofs), ownedNodes_(step.ownedNodes)
 {
 	for (const int p : basis_.order) {
 		const double    volume0 = water.shares.empty() ? step.cloud.volume0[p] : water.shares[step.cloud.material[p]] * step.cloud.volume0[p];
@@ -216,7 +216,7 @@ template <int Dim> double WaterForce<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
 	add(d, { force });
-	share_.complete(force);
+	ownedNodes_.complete(force);
 	return force.norm();
 }
 
@@ -228,7 +228,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		Eigen::VectorXd twice = onWalls;
 		addBefore(twice);
 		add(d, { twice });
-		share_.complete(twice);
+		ownedNodes_.complete(twice);
 		water_.work = -twice.dot(d) / 2;
 	}
 	water_.porePressure.assign(start_.size(), 0);
@@ -236,7 +236,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		if (wets) water_.porePressure[basis_.order[i]] = water_.factor * wet.p.value;
 		if (fillsWalls && !wet.isDry()) addTo<Dim>({ onWalls }, wet, -water_.factor);
 	});
-	share_.complete(onWalls);
+	ownedNodes_.complete(onWalls);
 	water_.onWalls.clear();
 	for (std::size_t n = 0; n < basis_.nodes.size() && fillsWalls; ++n) {
 		Vec<Dim> force = Vec<Dim>::Zero();

@@ -25,9 +25,10 @@ template <int Dim> struct Water {
 	std::vector<Pressure>               beside {}, besideBefore {};
 
 	// of the last step that was accepted
-	std::vector<double>                   porePressure {}; ///< by point of the cloud, at its end [Pa]
-	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< of nodes that are held, what the water does to what holds them [N]; zero where they are free
-	double                                work = 0;        ///< with the mean of the forces at its two ends [J], where it is wanted
+	std::vector<double> porePressure {}; ///< by point of the cloud, at its end [Pa]
+	std::vector<std::pair<Key, Vec<Dim>>>
+	        onWalls {}; ///< of nodes that are constrained, what the water does to what holds them [N]; zero where they are free
+	double  work = 0;   ///< with the mean of the forces at its two ends [J], where it is wanted
 };
 
 /// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores,
@@ -68,7 +69,7 @@ private:
 	const CloudBasis<Dim>& basis_;
 	const Grid<Dim>&       grid_;
 	const FreeDofs&        dofs_;
-	const NodeShare&       share_;
+	const OwnedNodes&      ownedNodes_;
 	std::vector<Start>     start_; // in the order of the basis: the cloud goes on before commit()
 };
 

@@ -31,7 +31,7 @@ private:
 	vector<shared_ptr<MpmBoundary>>                  boundaries;
 	std::map<int, shared_ptr<MpmBaseMotion>>         bases; // base motions by boundary; for time steps
 	std::map<int, std::shared_ptr<gimpm::Wall<Dim>>> walls; // walls by boundary
-	vector<gimpm::HeldBox<Dim>>                      boxes;
+	vector<gimpm::ConstrainedBox<Dim>>               boxes;
 	gimpm::Motion<Dim>*                              motion = nullptr;
 };
 

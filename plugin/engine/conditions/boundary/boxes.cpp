@@ -5,22 +5,22 @@ namespace yade {
 
 namespace {
 	// In place of a wall, among the boxes of the boundaries.
-	template <int Dim> gimpm::HeldBox<Dim> holdsNothing()
+	template <int Dim> gimpm::ConstrainedBox<Dim> holdsNothing()
 	{
-		gimpm::HeldBox<Dim> box;
+		gimpm::ConstrainedBox<Dim> box;
 		box.lower.setOnes();
 		box.upper.setZero();
 		return box;
 	}
 
-	template <int Dim> gimpm::HeldBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+	template <int Dim> gimpm::ConstrainedBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
 	{
 		if (boundary.surface) return holdsNothing<Dim>();
 		auto box         = boxOfNodes<Dim>("MpmBoundary", boundary.min, boundary.max, grid, lattice);
 		box.displacement = boundary.displacement.head<Dim>();
 		for (int axis = 0; axis < Dim; ++axis)
 			box.fixed[axis] = boundary.fixes(axis);
-		if (lattice.axisymmetric && box.fixed[0] && box.displacement[0] != 0 && box.meets(gimpm::HeldBox<Dim>::ofAxis(lattice)))
+		if (lattice.axisymmetric && box.fixed[0] && box.displacement[0] != 0 && box.meets(gimpm::ConstrainedBox<Dim>::ofAxis(lattice)))
 			throw std::invalid_argument(
 			        "MpmBoundary.displacement[0] = " + std::to_string(box.displacement[0])
 			        + ": the box moves nodes on the axis x = 0 of MpmGrid.axisymmetric, which stay there; let it begin beside the axis.");
@@ -32,14 +32,14 @@ namespace {
 
 	// Compares two boxes along one axis.
 	template <int Dim>
-	bool moveAlike(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries, size_t i, size_t j, int axis)
+	bool moveAlike(const vector<gimpm::ConstrainedBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries, size_t i, size_t j, int axis)
 	{
 		const Real one = boxes[i].displacement[axis];
 		return one == boxes[j].displacement[axis] && (one == 0 || boundaries[i]->curve == boundaries[j]->curve);
 	}
 }
 
-template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries)
+template <int Dim> void refuseConflicts(const vector<gimpm::ConstrainedBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries)
 {
 	for (size_t i = 0; i < boxes.size(); ++i)
 		for (size_t j = 0; j < i; ++j)
@@ -55,17 +55,17 @@ template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes
 }
 
 template <int Dim>
-vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+vector<gimpm::ConstrainedBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
 {
-	vector<gimpm::HeldBox<Dim>> boxes;
+	vector<gimpm::ConstrainedBox<Dim>> boxes;
 	for (const auto& boundary : boundaries)
 		boxes.push_back(heldBox<Dim>(*boundary, grid, lattice));
 	return boxes;
 }
 
-template void                      refuseConflicts(const vector<gimpm::HeldBox<2>>&, const vector<shared_ptr<MpmBoundary>>&);
-template void                      refuseConflicts(const vector<gimpm::HeldBox<3>>&, const vector<shared_ptr<MpmBoundary>>&);
-template vector<gimpm::HeldBox<2>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<2>&);
-template vector<gimpm::HeldBox<3>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<3>&);
+template void                             refuseConflicts(const vector<gimpm::ConstrainedBox<2>>&, const vector<shared_ptr<MpmBoundary>>&);
+template void                             refuseConflicts(const vector<gimpm::ConstrainedBox<3>>&, const vector<shared_ptr<MpmBoundary>>&);
+template vector<gimpm::ConstrainedBox<2>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<2>&);
+template vector<gimpm::ConstrainedBox<3>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<3>&);
 
 } // namespace yade

@@ -121,9 +121,9 @@ int Contacts<Dim>::ownerOf(
 	}
 	const Se3r now = poseOf(*body.state);
 	Owner      owner { contact, shared, now, now, now, {}, {} };
-	owner.byYade      = movers->move(body);
-	const bool isHeld = (body.state->blockedDOFs & State::DOF_ALL) == State::DOF_ALL;
-	if (contact->implicit && !isHeld) free(owner, scene, grid);
+	owner.byYade             = movers->move(body);
+	const bool isConstrained = (body.state->blockedDOFs & State::DOF_ALL) == State::DOF_ALL;
+	if (contact->implicit && !isConstrained) free(owner, scene, grid);
 	owner.isFree = owner.free < 0 && owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
 	if (owner.isFree && Dim == 2)
 		throw std::invalid_argument(

@@ -132,15 +132,15 @@ template <int Dim> gimpm::FreeBody<Dim> freeBody(int owner, const FreeMotion& bo
 	const Se3r                   ahead = body.ahead(duration, gravity);
 	Free                         free { owner, body.at.position.head<Dim>() };
 	const Eigen::AngleAxis<Real> turn(ahead.orientation * body.at.orientation.conjugate());
-	free.motion = unknownsOf<Dim>(ahead.position - body.at.position, turn.angle() * turn.axis());
-	free.push   = unknownsOf<Dim>(body.force + body.mass.mass * gravity, body.torque);
+	free.motion       = unknownsOf<Dim>(ahead.position - body.at.position, turn.angle() * turn.axis());
+	free.externalLoad = unknownsOf<Dim>(body.force + body.mass.mass * gravity, body.torque);
 	for (int i = 0; i < Free::unknowns; ++i)
 		free.isGiven[i] = (body.given >> Unknowns<Dim>::dofs[i] & 1) || (isRing && Unknowns<Dim>::dofs[i] != 1);
 	if (!body.inTime || duration == 0) return free; // a study knows no inertia
 	// The inertia of the middle of the step, where it would be without the soil.
 	const Matrix3r before = alongAxes<Dim>(body.at, body.mass.inertia);
 	const Matrix3r within = alongAxes<Dim>({ body.at.position, turned(duration / 2 * body.spin) * body.at.orientation }, body.mass.inertia);
-	free.push += 1 / (body.part * duration) * unknownsOf<Dim>(body.mass.mass * body.velocity, before * body.spin);
+	free.externalLoad += 1 / (body.part * duration) * unknownsOf<Dim>(body.mass.mass * body.velocity, before * body.spin);
 	for (int i = 0; i < Free::unknowns; ++i)
 		for (int j = 0; j < Free::unknowns; ++j) {
 			const int a = Unknowns<Dim>::dofs[i], b = Unknowns<Dim>::dofs[j];

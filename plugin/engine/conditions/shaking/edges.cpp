@@ -8,14 +8,14 @@ namespace {
 	MpmAbsorbingBoundary& boundaryOf(const Listed& listed) { return static_cast<MpmAbsorbingBoundary&>(*listed.condition); }
 }
 
-template <int Dim> gimpm::HeldBox<Dim> Edges<Dim>::boxOf(const MpmAbsorbingBoundary& boundary, const gimpm::Grid<Dim>& lattice) const
+template <int Dim> gimpm::ConstrainedBox<Dim> Edges<Dim>::boxOf(const MpmAbsorbingBoundary& boundary, const gimpm::Grid<Dim>& lattice) const
 {
 	return boxOfNodes<Dim>("MpmAbsorbingBoundary", boundary.min, boundary.max, *analysis.grid, lattice);
 }
 
 template <int Dim> void Edges<Dim>::hold(gimpm::Model<Dim>& model)
 {
-	vector<gimpm::HeldBox<Dim>> open;
+	vector<gimpm::ConstrainedBox<Dim>> open;
 	for (const Listed& listed : group)
 		open.push_back(boxOf(boundaryOf(listed), model.grid));
 	model.boundary = gimpm::Boundary<Dim>(model.boundary.boxes(), open);

@@ -23,8 +23,8 @@ public:
 private:
 	using Edge = gimpm::AbsorbingBoundary<Dim>;
 
-	gimpm::HeldBox<Dim>   boxOf(const MpmAbsorbingBoundary&, const gimpm::Grid<Dim>&) const;
-	std::shared_ptr<Edge> edgeOf(const MpmAbsorbingBoundary&, const string& name, const gimpm::Grid<Dim>&) const;
+	gimpm::ConstrainedBox<Dim> boxOf(const MpmAbsorbingBoundary&, const gimpm::Grid<Dim>&) const;
+	std::shared_ptr<Edge>      edgeOf(const MpmAbsorbingBoundary&, const string& name, const gimpm::Grid<Dim>&) const;
 
 	MpmCondition::Group       group;
 	const Analysis&           analysis;

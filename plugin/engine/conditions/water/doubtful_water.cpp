@@ -17,7 +17,7 @@ namespace {
 	};
 
 	// True if anything constrains soil at this coordinate along the axis, or may.
-	bool isHeld(const Analysis& analysis, int axis, Real place)
+	bool isConstrained(const Analysis& analysis, int axis, Real place)
 	{
 		const auto all = analysis.conditions();
 		return std::any_of(
@@ -61,7 +61,7 @@ string warningOfSides(const MpmWater& water, const Analysis& analysis, const vec
 	}
 	if (!(level > height.low && level < height.high)) return "";
 	for (int a = 0; a < analysis.grid->dim; ++a) {
-		if (a == up || analysis.grid->period[a] != 0 || isHeld(analysis, a, along[a].low) || isHeld(analysis, a, along[a].high)) continue;
+		if (a == up || analysis.grid->period[a] != 0 || isConstrained(analysis, a, along[a].low) || isConstrained(analysis, a, along[a].high)) continue;
 		return sentence(
 		        name, ", outside of the body up to a level of ", level, " m, presses on both of its sides along ", "xyz"[a],
 		        ": a level is that of all water around. For water on one side, as before a dam, give a pressure that is zero on the other one: MpmWater(where='outside', ",

@@ -150,7 +150,7 @@ template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 		onBoundaries.assign(reactions.size(), Vector3r::Zero());
 		for (const auto& [node, force] : waters[i].onWalls)
 			for (int a = 0; a < Dim; ++a) {
-				const auto*  box = boundary.holder(node, a);
+				const auto*  box = boundary.constrainingBox(node, a);
 				const size_t b   = box ? box - boundary.boxes().data() : reactions.size();
 				// The axis of symmetry is none of them.
 				if (b < reactions.size()) onBoundaries[b][a] += force[a];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/share.hpp"
+#include "core/stepping/owned_parts.hpp"
 #include "core/base/even_parts.hpp"
 #include <algorithm>
 #include <limits>
@@ -21,19 +21,20 @@ template <int Dim> std::vector<double> workOf(const CloudBasis<Dim>& basis)
 	return work;
 }
 
-template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
+template <class Nodes> bool touches(const OwnedNodes& ownedNodes, const Nodes& nodes)
 {
-	return std::any_of(std::begin(nodes), std::end(nodes), [first = share.first(), last = share.last()](int node) { return node >= first && node < last; });
+	return std::any_of(
+	        std::begin(nodes), std::end(nodes), [first = ownedNodes.first(), last = ownedNodes.last()](int node) { return node >= first && node < last; });
 }
 
 /// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
-template <int Dim> void keepTouching(const NodeShare& share, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& tiles)
+template <int Dim> void keepTouching(const OwnedNodes& ownedNodes, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& tiles)
 {
 	std::vector<std::pair<int, int>> kept;
 	for (auto [first, last] : tiles) {
-		while (first < last && !touches(share, patches[first].node))
+		while (first < last && !touches(ownedNodes, patches[first].node))
 			++first;
-		while (first < last && !touches(share, patches[last - 1].node))
+		while (first < last && !touches(ownedNodes, patches[last - 1].node))
 			--last;
 		if (first < last) kept.push_back({ first, last });
 	}
@@ -42,7 +43,7 @@ template <int Dim> void keepTouching(const NodeShare& share, const std::vector<P
 
 /// No others, of which some points may be missing. What follows a gap in a tile is done after all the rest of its
 /// colour: a tile stays with one thread.
-template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const CloudBasis<Dim>& basis)
+template <int Dim> Colours<Dim> onlyTouching(const OwnedNodes& ownedNodes, const CloudBasis<Dim>& basis)
 {
 	const std::size_t count = basis.colours.size();
 	Colours<Dim>      kept(count);
@@ -50,7 +51,7 @@ template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const Cloud
 		for (const auto& [first, last] : basis.colours[c]) {
 			std::size_t colour = c;
 			for (int i = first, begin = first; i <= last; ++i) {
-				if (i < last && touches(share, basis.patches[i].node)) continue;
+				if (i < last && touches(ownedNodes, basis.patches[i].node)) continue;
 				if (colour >= kept.size()) kept.resize(kept.size() + count);
 				if (begin < i) kept[colour].push_back({ begin, i }), colour += count;
 				begin = i + 1;
@@ -62,14 +63,14 @@ template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const Cloud
 } // namespace
 
 /// Whoever has the points around a node has its row; those who know all points divide the work.
-template <int Dim> std::vector<int> Share<Dim>::startsAmong(const Processes& processes, const CloudBasis<Dim>& basis, const Division& division)
+template <int Dim> std::vector<int> OwnedParts<Dim>::startsAmong(const Processes& processes, const CloudBasis<Dim>& basis, const Division& division)
 {
 	if (processes.size() == 1) return { 0, int(basis.nodes.size()) };
 	return division.isWhole() ? evenParts(workOf(basis), processes.size()) : division.startsAmong(basis.nodes);
 }
 
 template <int Dim>
-Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division& division)
+OwnedParts<Dim>::OwnedParts(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division& division)
         : basis_(basis)
         , allFaces_(faces)
         , division_(division)
@@ -85,7 +86,7 @@ Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, cons
 	});
 }
 
-template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::optional<PointFailure>& failure) const
+template <int Dim> std::optional<PointFailure> OwnedParts<Dim>::firstOf(const std::optional<PointFailure>& failure) const
 {
 	constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
 	std::int64_t           code = failure ? 2 * division_.idOf(failure->point) + (failure->reason == PointFailure::Reason::noResponse) : none;
@@ -100,7 +101,7 @@ template <int Dim> bool haveSamePoints(const Processes& processes, const PointCl
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template class Share<Dim>;                                                                                                                             \
+	template class OwnedParts<Dim>;                                                                                                                        \
 	template bool haveSamePoints(const Processes&, const PointCloud<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -10,7 +10,7 @@ namespace gimpm {
 /// Nodes stay where they are while the soil that they push moves on. What is wrong with the first box found that is to
 /// move and holds no node with soil, or whose soil has gone more than half a cell away in front of a node; or empty. It
 /// depends on the present state only.
-template <int Dim> std::string lostHold(const PointCloud<Dim>&, const CloudBasis<Dim>&, const Model<Dim>&, const Load<Dim>&);
+template <int Dim> std::string lostConstraint(const PointCloud<Dim>&, const CloudBasis<Dim>&, const Model<Dim>&, const Load<Dim>&);
 
 /// A box of the boundary that reaches soil in a refined grid and holds nothing, because it lies between the nodes. One
 /// clause, or empty.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/grid/ties.hpp"
+#include "core/grid/affine_constraints.hpp"
 #include <map>
 
 namespace gimpm {
@@ -46,7 +46,7 @@ void addKeys(std::vector<Key>& sorted, const std::vector<Key>& others)
 
 } // namespace
 
-template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
 {
 	std::vector<std::pair<Key, Masters>> tied;
 	std::vector<Key>                     masters;
@@ -59,19 +59,19 @@ template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&
 		tied.emplace_back(node, std::move(found));
 	}
 	addKeys(nodes, masters);
-	Ties ties;
+	AffineConstraints affineConstraints;
 	for (const auto& [node, found] : tied) {
-		ties.node.push_back(position(nodes, node));
+		affineConstraints.node.push_back(position(nodes, node));
 		for (const auto& [master, weight] : found) {
-			ties.master.push_back(position(nodes, master));
-			ties.weight.push_back(weight);
+			affineConstraints.master.push_back(position(nodes, master));
+			affineConstraints.weight.push_back(weight);
 		}
-		ties.start.push_back(int(ties.master.size()));
+		affineConstraints.start.push_back(int(affineConstraints.master.size()));
 	}
-	return ties;
+	return affineConstraints;
 }
 
-template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Parting<Dim>& parting)
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Parting<Dim>& parting)
 {
 	std::vector<Key> tied, masters;
 	for (const Key node : nodes)
@@ -80,19 +80,19 @@ template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Parting<Dim>& pa
 			masters.push_back(master);
 		}
 	addKeys(nodes, masters);
-	Ties ties;
+	AffineConstraints affineConstraints;
 	for (std::size_t t = 0; t < tied.size(); ++t) {
-		ties.node.push_back(position(nodes, tied[t]));
-		ties.master.push_back(position(nodes, masters[t]));
-		ties.weight.push_back(1);
-		ties.start.push_back(int(t) + 1);
+		affineConstraints.node.push_back(position(nodes, tied[t]));
+		affineConstraints.master.push_back(position(nodes, masters[t]));
+		affineConstraints.weight.push_back(1);
+		affineConstraints.start.push_back(int(t) + 1);
 	}
-	return ties;
+	return affineConstraints;
 }
 
-template Ties tieNodes(std::vector<Key>&, const Refinement<2>&);
-template Ties tieNodes(std::vector<Key>&, const Refinement<3>&);
-template Ties tieNodes(std::vector<Key>&, const Parting<2>&);
-template Ties tieNodes(std::vector<Key>&, const Parting<3>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Refinement<2>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Refinement<3>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Parting<2>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Parting<3>&);
 
 } // namespace gimpm

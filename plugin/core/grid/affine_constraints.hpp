@@ -8,7 +8,7 @@
 namespace gimpm {
 
 /// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells without parting lines.
-struct Ties {
+struct AffineConstraints {
 	std::vector<int>    node;          ///< that are tied, rising
 	std::vector<int>    start = { 0 }; ///< of their masters
 	std::vector<int>    master;        ///< nodes
@@ -18,7 +18,7 @@ struct Ties {
 	bool contains(int n) const { return std::binary_search(node.begin(), node.end(), n); }
 
 	/// Gives the tied nodes the values that follow from their masters.
-	template <int Dim> void spread(Eigen::VectorXd& values) const
+	template <int Dim> void distribute(Eigen::VectorXd& values) const
 	{
 		for (std::size_t t = 0; t < node.size(); ++t) {
 			Vec<Dim> sum = Vec<Dim>::Zero();
@@ -29,7 +29,7 @@ struct Ties {
 	}
 
 	/// The transpose: forces at tied nodes become forces at their masters.
-	template <int Dim> void fold(Eigen::VectorXd& forces) const
+	template <int Dim> void condense(Eigen::VectorXd& forces) const
 	{
 		for (std::size_t t = 0; t < node.size(); ++t) {
 			const Vec<Dim> force = forces.template segment<Dim>(Dim * node[t]);
@@ -44,9 +44,9 @@ struct Ties {
 /// of the largest leaf that touches it, and these in turn to theirs; a corner of that leaf itself to the node of the
 /// leaf's level there, unless it is that node. So the functions of all levels together are continuous, and in a leaf
 /// they are linear along each axis.
-template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
 
 /// Ties nodes of layers above 0 that are not nodes of their own to those of layer 0 in their places, which are added.
-template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Parting<Dim>&);
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Parting<Dim>&);
 
 } // namespace gimpm

@@ -12,15 +12,15 @@ namespace gimpm {
 /// the borders are looked at twice. The other terms are added up by every process for all nodes: they take little, and
 /// some of them need to be whole. Where points are divided among processes, they are not, and what the points add
 /// elsewhere is completed.
-template <int Dim> class Share {
+template <int Dim> class OwnedParts {
 public:
 	/// All are kept by reference. One process that is alone has all there is.
-	Share(const Processes&, const CloudBasis<Dim>&, const std::vector<GhostFace<Dim>>&, const Division&);
-	Share(const Share&) = delete;
+	OwnedParts(const Processes&, const CloudBasis<Dim>&, const std::vector<GhostFace<Dim>>&, const Division&);
+	OwnedParts(const OwnedParts&) = delete;
 
-	const NodeShare& nodes() const { return nodes_; }
+	const OwnedNodes& nodes() const { return nodes_; }
 	/// Around which this process has all points.
-	const NodeShare& knownNodes() const { return known_; }
+	const OwnedNodes& knownNodes() const { return known_; }
 	/// Patches that touch the nodes.
 	const Colours<Dim>&                colours() const { return nodes_.isWhole() ? basis_.colours : colours_; }
 	const std::vector<GhostFace<Dim>>& faces() const { return nodes_.isWhole() ? allFaces_ : faces_; }
@@ -34,7 +34,7 @@ private:
 	const CloudBasis<Dim>&             basis_;
 	const std::vector<GhostFace<Dim>>& allFaces_;
 	const Division&                    division_;
-	const NodeShare                    nodes_, known_;
+	const OwnedNodes                   nodes_, known_;
 	Colours<Dim>                       colours_;
 	std::vector<GhostFace<Dim>>        faces_;
 };

@@ -9,7 +9,7 @@
 namespace gimpm {
 
 /// Each process has a range of the nodes; one that is alone has all.
-struct NodeShare {
+struct OwnedNodes {
 	const Processes& processes;
 	std::vector<int> start; ///< first node of each process; and the number of nodes
 
@@ -22,7 +22,7 @@ struct NodeShare {
 	std::pair<int, int> range() const { return { first(), last() }; }
 
 	/// Of a process that has all rows, however many.
-	static NodeShare whole(int nodes = 0) { return { *Processes::alone(), { 0, nodes } }; }
+	static OwnedNodes whole(int nodes = 0) { return { *Processes::alone(), { 0, nodes } }; }
 
 	/// The rows of this process of a vector over nodes.
 	auto own(Eigen::VectorXd& nodal) const

@@ -7,9 +7,9 @@
 namespace gimpm {
 
 /// Looks at the iterates of Newton's method one after the other. Solves: how many have led to the iterate.
-template <int Dim> class Judge {
+template <int Dim> class ConvergenceTest {
 public:
-	Judge(const StepSystem<Dim>& system, Iterate<Dim>& iterate, StepReport& report)
+	ConvergenceTest(const StepSystem<Dim>& system, Iterate<Dim>& iterate, StepReport& report)
 	        : convergence(system.model.newton.tolerance, system.model.newton.reuseFactor), system_(system), iterate_(iterate), report_(report)
 	{
 	}

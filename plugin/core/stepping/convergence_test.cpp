@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/judge.hpp"
+#include "core/stepping/convergence_test.hpp"
 #include "core/stepping/outcome.hpp"
 
 namespace gimpm {
 
 /// Parts of the body are looked at when the whole is in balance.
-template <int Dim> double Judge<Dim>::excess(const Eigen::VectorXd& d, int solves)
+template <int Dim> double ConvergenceTest<Dim>::excess(const Eigen::VectorXd& d, int solves)
 {
 	const double tolerance = settings().tolerance, ofWhole = relative(solves) / tolerance;
 	isWholeInBalance_ = solves > 0 && ofWhole <= 1;
@@ -14,7 +14,7 @@ template <int Dim> double Judge<Dim>::excess(const Eigen::VectorXd& d, int solve
 	return std::max(ofWhole, report_.localResidual / (localTolerance * tolerance));
 }
 
-template <int Dim> bool Judge<Dim>::ends(const Eigen::VectorXd& d, int solves, bool isComplete)
+template <int Dim> bool ConvergenceTest<Dim>::ends(const Eigen::VectorXd& d, int solves, bool isComplete)
 {
 	const double residual = relative(solves);
 	convergence.note(residual, excess(d, solves));
@@ -31,12 +31,12 @@ template <int Dim> bool Judge<Dim>::ends(const Eigen::VectorXd& d, int solves, b
 	return fail(report_, Failure::tooManyIterations, causeOfTooMany(report_, settings().tolerance, isWholeInBalance_, solves));
 }
 
-template <int Dim> bool Judge<Dim>::improves(const Eigen::VectorXd& d, int solves, double before)
+template <int Dim> bool ConvergenceTest<Dim>::improves(const Eigen::VectorXd& d, int solves, double before)
 {
 	return staysInBalance(solves) ? localResidual(d) < report_.localResidual : iterate_.balance.size < before;
 }
 
-template class Judge<2>;
-template class Judge<3>;
+template class ConvergenceTest<2>;
+template class ConvergenceTest<3>;
 
 } // namespace gimpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/boundary_hold.hpp"
+#include "core/stepping/lost_constraint.hpp"
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -12,7 +12,7 @@ namespace {
 /// The nodes at the front of a box that pushes along an axis, and the nearest soil before each of them.
 template <int Dim> class Front {
 public:
-	Front(const HeldBox<Dim>& box, int axis, double direction) : box(box), axis(axis), sign(direction < 0 ? -1 : 1)
+	Front(const ConstrainedBox<Dim>& box, int axis, double direction) : box(box), axis(axis), sign(direction < 0 ? -1 : 1)
 	{
 		const int front       = sign < 0 ? box.lower[axis] : box.upper[axis];
 		const int period      = box.period[axis];
@@ -109,22 +109,22 @@ private:
 		}
 	}
 
-	HeldBox<Dim>       box; // of the nodes
-	int                axis;
-	double             sign;
-	std::map<Key, Gap> gaps;
+	ConstrainedBox<Dim> box; // of the nodes
+	int                 axis;
+	double              sign;
+	std::map<Key, Gap>  gaps;
 };
 
-template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
+template <int Dim> bool holdsSoil(const ConstrainedBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
 	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(key); });
 }
 
 /// A box that reaches a leaf and none of its corners, or only those that hang on others and follow these.
-template <int Dim> bool liesBetweenNodes(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
+template <int Dim> bool liesBetweenNodes(const ConstrainedBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
 	for (int node = 0; node < int(basis.nodes.size()); ++node)
-		if (box.contains(basis.nodes[node]) && !basis.ties.contains(node)) return false;
+		if (box.contains(basis.nodes[node]) && !basis.affineConstraints.contains(node)) return false;
 	return std::any_of(basis.leaves.begin(), basis.leaves.end(), [&](Key leaf) {
 		const Index<Dim> low = Grid<Dim>::index(leaf), high = low + Index<Dim>::Constant(1 << Grid<Dim>::level(leaf));
 		return (low.cwiseMax(box.lower).array() <= high.cwiseMin(box.upper).array()).all();
@@ -139,7 +139,7 @@ template <class V> std::string listed(const V& x)
 	return text.str() + ")";
 }
 
-template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
+template <int Dim> std::string withoutSoil(const ConstrainedBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
 {
 	Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
@@ -160,7 +160,7 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 }
 
 template <int Dim>
-std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division& division)
+std::string withdrawn(const ConstrainedBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division& division)
 {
 	if (division.largest(double(cloud.position0.size())) == 0) return "";             // no process knows
 	const double before = load.before(), factor = before != 0 ? before : load.growth; // what has pushed, or begins to
@@ -181,7 +181,7 @@ std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, con
 
 } // namespace
 
-template <int Dim> std::string lostHold(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
+template <int Dim> std::string lostConstraint(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
 {
 	const auto&     boxes    = model.boundary.boxes();
 	const Division& division = *model.division;
@@ -206,7 +206,7 @@ template <int Dim> std::string boxBetweenNodes(const CloudBasis<Dim>& basis, con
 
 template std::string boxBetweenNodes(const CloudBasis<2>&, const Boundary<2>&);
 template std::string boxBetweenNodes(const CloudBasis<3>&, const Boundary<3>&);
-template std::string lostHold(const PointCloud<2>&, const CloudBasis<2>&, const Model<2>&, const Load<2>&);
-template std::string lostHold(const PointCloud<3>&, const CloudBasis<3>&, const Model<3>&, const Load<3>&);
+template std::string lostConstraint(const PointCloud<2>&, const CloudBasis<2>&, const Model<2>&, const Load<2>&);
+template std::string lostConstraint(const PointCloud<3>&, const CloudBasis<3>&, const Model<3>&, const Load<3>&);
 
 } // namespace gimpm
