@@ -18,7 +18,7 @@ template <int Dim> PointCloud<Dim> partOf(const PointCloud<Dim>& all, const Mode
 	for (int p = 0; p < int(all.size()); ++p)
 		if (division.owns(lowestCellOf(all, p, model))) division.id.push_back(p);
 	PointCloud<Dim> own = all;
-	forColumns(own, [&](auto& column, Presence) {
+	forColumns(own, [&](auto& column, ColumnPolicy) {
 		const auto ofAll = column;
 		column.clear();
 		for (const std::int64_t p : division.id)

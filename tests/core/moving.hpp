@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-/// Steps in time of a body. The load factor is 1 all the time.
+/// Time steps of a body. The load factor is 1 all the time.
 template <int Dim> struct Moving {
 	Model<Dim>                   model;
 	PointCloud<Dim>              cloud;

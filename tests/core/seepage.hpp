@@ -232,7 +232,7 @@ private:
 		FieldStart start { Eigen::VectorXd::Constant(Eigen::Index(x.size()), before), {} };
 		for (std::size_t n = 0; n < x.size(); ++n)
 			for (const int end : { 0, 1 })
-				if (std::abs(x[n][0] - grid.origin[0] - end * length) < 1e-9) start.given[int(n)] = ends[end];
+				if (std::abs(x[n][0] - grid.origin[0] - end * length) < 1e-9) start.prescribed[int(n)] = ends[end];
 		return start;
 	}
 };

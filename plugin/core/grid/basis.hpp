@@ -64,7 +64,7 @@ struct AxisBasis {
 		set(sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b);
 	}
 
-	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its middle from the
+	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its centre from the
 	/// axis: each position counts with its own distance (Nairn and Guilkey 2015). So a uniform stress is in balance
 	/// wherever domains lie in the cells. Linear fields have their values at the centre of the ring, r + l^2 / 3r.
 	void setRing(double x, double r, double l, double h, const AxisCells& cells)

@@ -77,7 +77,7 @@ public:
 	std::vector<Key> besideMoving(const std::vector<Key>& cells) const;
 
 	/// Soil on both sides of a face that moves goes along with it, and its domains reach through. `filled`: cells
-	/// beside moving boxes with middles of points in them.
+	/// beside moving boxes with centres of points in them.
 	void setFilled(std::vector<Key> filled) { filled_ = std::move(filled); }
 
 private:

@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// The boundary of a step: told of the cells with middles of points beside its boxes that move (Boundary::setFilled).
+/// The boundary of a step: told of the cells with centres of points beside its boxes that move (Boundary::setFilled).
 template <int Dim> Boundary<Dim> amongSoil(const Boundary<Dim>&, const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Division&);
 
 } // namespace gimpm

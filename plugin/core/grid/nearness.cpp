@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// Positions by the cells that the middles of near points may be in, of the largest cells.
+/// Positions by the cells that the centres of near points may be in, of the largest cells.
 template <int Dim> class PositionsByCell {
 public:
 	PositionsByCell(const std::vector<Vec<Dim>>& positions, const Grid<Dim>& grid)
@@ -29,7 +29,7 @@ public:
 		low_ -= farthest, high_ += farthest;
 	}
 
-	/// f(number) of each position that a domain with this middle may be near.
+	/// f(number) of each position that a domain with this centre may be near.
 	template <class F> void forNear(const Vec<Dim>& middle, F&& f) const
 	{
 		if (!grid_.isPeriodic() && ((middle - low_).minCoeff() < 0 || (high_ - middle).minCoeff() < 0)) return;

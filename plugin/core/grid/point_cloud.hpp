@@ -10,7 +10,7 @@
 namespace gimpm {
 
 /// Which of the columns of a cloud there are.
-enum class Presence {
+enum class ColumnPolicy {
 	always,   ///< there is a value for each point
 	ifNeeded, ///< the column is empty where none of the points needs it
 };
@@ -18,7 +18,7 @@ enum class Presence {
 /// A column of a cloud, or a list of columns, each of which may be empty.
 template <class Cloud, class Values> struct CloudColumn {
 	Values Cloud::*of;
-	Presence       presence;
+	ColumnPolicy   policy;
 };
 
 /// All columns that are there have the same length. A new one is a member and its entry in columns(), without which
@@ -43,8 +43,8 @@ template <int Dim> struct PointCloud {
 	static constexpr auto columns()
 	{
 		using C              = PointCloud;
-		const auto all       = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, Presence::always }; };
-		const auto sometimes = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, Presence::ifNeeded }; };
+		const auto all       = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, ColumnPolicy::always }; };
+		const auto sometimes = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, ColumnPolicy::ifNeeded }; };
 		return std::make_tuple(
 		        all(&C::position), sometimes(&C::position0), all(&C::halfSize), all(&C::halfSize0), all(&C::volume0), all(&C::defGrad),
 		        sometimes(&C::hoopStretch), all(&C::elasticStrain), all(&C::stress), sometimes(&C::internals), sometimes(&C::parameters),
@@ -65,18 +65,18 @@ template <int Dim> struct PointCloud {
 	void resize(std::size_t n);
 };
 
-/// Calls f(column, presence) for each column of a cloud, also for those that are empty and for each of a list.
+/// Calls f(column, policy) for each column of a cloud, also for those that are empty and for each of a list.
 template <class Cloud, class F> void forColumns(Cloud& cloud, F&& f)
 {
-	const auto visit = [&](auto& values, Presence presence) {
+	const auto visit = [&](auto& values, ColumnPolicy policy) {
 		using Column = typename std::decay_t<decltype(values)>::value_type;
 		if constexpr (std::is_same_v<Column, std::vector<double>>)
 			for (auto& column : values)
-				f(column, presence);
+				f(column, policy);
 		else
-			f(values, presence);
+			f(values, policy);
 	};
-	std::apply([&](const auto&... column) { (visit(cloud.*column.of, column.presence), ...); }, std::decay_t<Cloud>::columns());
+	std::apply([&](const auto&... column) { (visit(cloud.*column.of, column.policy), ...); }, std::decay_t<Cloud>::columns());
 }
 
 /// Bytes of the members that a list of columns names.
@@ -90,8 +90,8 @@ template <int Dim> void PointCloud<Dim>::resize(std::size_t n)
 	for (auto* columns : { &internals, &parameters })
 		for (auto& column : *columns)
 			if (!column.empty()) column.resize(n);
-	forColumns(*this, [n](auto& column, Presence presence) {
-		if (presence == Presence::always) column.resize(n);
+	forColumns(*this, [n](auto& column, ColumnPolicy policy) {
+		if (policy == ColumnPolicy::always) column.resize(n);
 	});
 }
 
@@ -99,7 +99,7 @@ template <int Dim> void PointCloud<Dim>::resize(std::size_t n)
 template <int Dim> std::uint64_t checksumOf(const PointCloud<Dim>& cloud)
 {
 	Checksum sum;
-	forColumns(cloud, [&](const auto& column, Presence) { sum.mix(column); });
+	forColumns(cloud, [&](const auto& column, ColumnPolicy) { sum.mix(column); });
 	return sum.take() ^ cloud.size();
 }
 

@@ -62,7 +62,7 @@ public:
 	double flops() const { return flops_; }
 
 private:
-	/// Where along an axis the fewest nodes have to be cut out, next to the middle if that is the same, so that a
+	/// Where along an axis the fewest nodes have to be cut out, next to the centre if that is the same, so that a
 	/// quarter of them is left on either side.
 	static int thinnestLayer(Nodes begin, Nodes end, int axis, int low, int high)
 	{
@@ -70,7 +70,7 @@ private:
 		for (Nodes n = begin; n != end; ++n)
 			++layer[(*n)[axis] - low];
 		const int           count = int(end - begin);
-		std::pair<int, int> best { count + 1, 0 }; // nodes of the layer, and how far it is from the middle
+		std::pair<int, int> best { count + 1, 0 }; // nodes of the layer, and how far it is from the centre
 		int                 thinnest = 0, below = 0;
 		for (int i = 0; i < int(layer.size()); below += layer[i++]) {
 			const int                 above = count - below - layer[i];

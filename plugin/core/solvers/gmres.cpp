@@ -13,7 +13,7 @@ namespace {
 constexpr int kept = 100;
 
 /// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as
-/// of one point a cell in the middle of it, make the incomplete factor useless.
+/// of one point a cell in the centre of it, make the incomplete factor useless.
 constexpr int maxIterations = 200;
 
 /// With the diagonal, each of which takes less time.

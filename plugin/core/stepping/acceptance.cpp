@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/acceptance.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
-#include "core/terms/points/even_dilation.hpp"
+#include "core/stepping/wall_overhang.hpp"
+#include "core/terms/points/divergence_correction.hpp"
 #include "core/terms/points/point_update.hpp"
-#include "core/terms/points/within_cells.hpp"
+#include "core/terms/points/pressure_filter.hpp"
 #include <algorithm>
 #include <sstream>
 
@@ -17,7 +17,7 @@ namespace {
 template <int Dim> void keepOffAxis(PointCloud<Dim>& cloud, int p) { cloud.halfSize[p][0] = std::min(cloud.halfSize[p][0], cloud.position[p][0]); }
 
 /// The gradient that a point takes over has the dilation of F-bar.
-template <int Dim> void makeEven(const EvenDilation<Dim>& even, bool isRing, Mat<Dim>& gradient, double& hoop)
+template <int Dim> void makeEven(const DivergenceCorrection<Dim>& even, bool isRing, Mat<Dim>& gradient, double& hoop)
 {
 	gradient += even.growth.asDiagonal();
 	hoop += even.hoop;
@@ -32,8 +32,8 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 {
 	std::vector<char> clamped(cloud.size(), 0);
 	provideInternals(cloud.internals, system.model.materials, cloud.size());
-	const auto even
-	        = system.model.pressureRelaxation ? evenDilations(cloud, system.basis, system.points, system.model.grid, d) : std::vector<EvenDilation<Dim>>();
+	const auto even = system.model.pressureRelaxation ? divergenceCorrections(cloud, system.basis, system.points, system.model.grid, d)
+	                                                  : std::vector<DivergenceCorrection<Dim>>();
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
 		Mat<Dim> gradient = u.gradient;

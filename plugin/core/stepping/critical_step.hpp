@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How long a step in time by central differences may be.
+// How long a time step by central differences may be.
 #pragma once
 #include "core/stepping/model.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Energy that a step in time makes of nothing.
+// Energy that a time step makes of nothing.
 #pragma once
 #include "core/stepping/step_system.hpp"
 
@@ -21,7 +21,7 @@ struct EnergyGain {
 /// elastic energy is not Hencky's nothing is known but the work.
 template <int Dim> EnergyGain energyGain(const StepSystem<Dim>&, const PointCloud<Dim>& before, const PointCloud<Dim>& after);
 
-/// Whether a step in time, by these displacements, has not ended in such an equilibrium; the report says so if it has.
+/// Whether a time step, by these displacements, has not ended in such an equilibrium; the report says so if it has.
 /// The midpoint rule takes its stress elsewhere, and has not been seen to. Bodies of points that meet are admitted
 /// a thousandth of what is in play: a blow within one step leaves accelerations to the points that the grid of the next
 /// one is not in balance with. Beside that, what loads work in the step, which schemes that weigh it over the step know

@@ -3,8 +3,8 @@
 #include "core/base/stopwatch.hpp"
 #include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
-#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/outcome.hpp"
+#include "core/stepping/wall_overhang.hpp"
 #include "core/terms/inertia/explicit_inertia.hpp"
 
 namespace gimpm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One step in time by central differences: no stiffness, no iteration.
+// One time step by central differences: no stiffness, no iteration.
 #pragma once
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"

@@ -11,7 +11,7 @@ constexpr double leastGhostForce = 0.02;
 
 /// Part of the work at the nodes of its faces that the stabilisation takes up when the nodes go to d, 0 to 1 [-]:
 /// |d . g| / (|d . g| + sum over their unknowns of |d p|), with its forces g and those p of the points' stress.
-/// NaN of steps in time, where inertia bears what is out of balance, and of several fields.
+/// NaN of time steps, where inertia bears what is out of balance, and of several fields.
 ///
 /// `force`: the sum of the terms at d [N].
 template <int Dim> double ghostShare(const StepSystem<Dim>&, const Eigen::VectorXd& d, const Eigen::VectorXd& force);

@@ -3,13 +3,13 @@
 #include "core/base/stopwatch.hpp"
 #include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
-#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/lost_constraint.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
+#include "core/stepping/wall_overhang.hpp"
 #include "core/terms/inertia/inertia.hpp"
 #include <utility>
 

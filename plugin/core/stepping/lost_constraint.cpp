@@ -29,7 +29,7 @@ public:
 	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
 	{
 		for (std::size_t p = 0; p < cloud.size(); ++p)
-			if (box.isOf(cloud.layerOf(int(p)))) look(cloud, int(p), grid);
+			if (box.isOf(cloud.layerOf(int(p)))) recordGap(cloud, int(p), grid);
 		takeFromOthers(division);
 		std::optional<Loss> widest;
 		for (const auto& [node, gap] : gaps)
@@ -72,7 +72,7 @@ private:
 
 	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies
 	/// within a quarter of a cell beside it: soil further out hangs on to other nodes too.
-	void look(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
+	void recordGap(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
 		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // of the cells that the soil is in
 		const double centre = distance(cloud.position[p], grid, h), half = cloud.halfSize[p][axis] / h;

@@ -20,14 +20,15 @@ namespace gimpm {
 struct GhostSettings {
 	double       factor  = 1e-2; ///< gamma_k over the modulus; 0: plain GIMPM, no faces are looked for
 	GhostScaling scaling = GhostScaling::meshIndependent;
-	/// Part of the last step's displacements, in the ratio of the loads, of which kinks cost nothing.
+	/// Part of the last step's displacements, in the ratio of the loads, of which jumps of the gradient cost
+	/// nothing.
 	double memory = 0;
 	/// Of a cell, below which it is ill-filled: then it is tied to others, and other faces keep `elsewhere` of
 	/// their stiffness (core/terms/aggregates.hpp). 0: all faces alike.
 	double threshold = 0;
-	/// Part of the work of a static step (ghost_share.hpp) that it may take up. Where it is more, kinks that have
-	/// been reached cost nothing, and the step goes on from there; and so on, until stress in the points bears the
-	/// rest. 1: no limit.
+	/// Part of the work of a static step (ghost_share.hpp) that it may take up. Where it is more, jumps of the
+	/// gradient that have been reached cost nothing, and the step goes on from there; and so on, until stress in
+	/// the points bears the rest. 1: no limit.
 	double workTolerance = 1;
 
 	/// Holds what no stress holds, as points at the apex of their yield surface in well-filled cells.
@@ -87,7 +88,7 @@ template <int Dim> struct Model {
 	/// Besides the points' resistance and the ghost stabilisation.
 	std::vector<TermOfStep<Dim>> terms {};
 	/// Besides the displacements.
-	InertiaOfStep<Dim>           inertia {}; ///< of steps in time; null: those without
+	InertiaOfStep<Dim>           inertia {}; ///< of time steps; null: those without
 	std::vector<NodalField<Dim>> fields {};
 	/// Of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};

@@ -66,7 +66,7 @@ public:
 		return std::min(top[strip - 1], top[strip + 1]);
 	}
 
-	/// Calls f(strip, row) for those whose middles lie in the domain of a point.
+	/// Calls f(strip, row) for those whose centres lie in the domain of a point.
 	template <class F> void forStrips(std::size_t p, F&& f) const
 	{
 		const auto range = [&](int a, int count) -> std::array<int, 2> {
@@ -111,7 +111,7 @@ public:
 	}
 
 	/// Beside the strip in front of a face, which is that of the soil with the inward direction.
-	void look(int first, int inwards, std::optional<PlaneSlip<Dim>>& worst) const
+	void searchFrom(int first, int inwards, std::optional<PlaneSlip<Dim>>& worst) const
 	{
 		const double top = outline_.topAt(first), foot = footBefore(first, inwards);
 		if (top == nothing || !(top - foot >= leastFace * grid_.cellSize)) return;
@@ -236,7 +236,7 @@ std::optional<PlaneSlip<Dim>> worstPlaneSlip(
 		const SlipSearch<Dim> search(cloud, grid, boundary, outline, axis, down, weight, all);
 		for (int strip = 0; strip < outline.count(); ++strip)
 			for (const int inwards : { 1, -1 })
-				search.look(strip, inwards, worst);
+				search.searchFrom(strip, inwards, worst);
 	}
 	return worst;
 }

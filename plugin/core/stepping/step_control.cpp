@@ -14,7 +14,7 @@ bool canBeCut(Failure failure)
 
 double StepControl::part() const { return std::min(part_, 1 - done_); }
 
-/// The part that was made may have been a rest. The cube is that of steps in time. Without inertia, where the error
+/// The part that was made may have been a rest. The cube is that of time steps. Without inertia, where the error
 /// goes with the square, the rest is a margin: a part that is undone costs more than one that could have been longer.
 bool StepControl::mayGrow(const StepReport& report) const
 {

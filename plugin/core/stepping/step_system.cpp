@@ -135,7 +135,7 @@ template <int Dim> void StepSystem<Dim>::constrainField(int field, const FieldSt
 	before_[field] = map.of(field, before);
 	for (int n = 0; n < map.nodes(); ++n)
 		for (int i = map.at(field, n); i < map.at(field, n + 1) && !basis.affineConstraints.contains(n); ++i)
-			if (const auto given = start.given.find(i - map.begin(field)); given != start.given.end())
+			if (const auto given = start.prescribed.find(i - map.begin(field)); given != start.prescribed.end())
 				constraints.prescribe(i, given->second - before[i]);
 			else
 				constraints.free(i);

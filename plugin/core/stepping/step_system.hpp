@@ -25,14 +25,14 @@ template <int Dim> struct StepSystem {
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
 	Terms<Dim>                  terms;             ///< whose sum balances the external forces
-	Inertia<Dim>*               inertia = nullptr; ///< the last of them, in a step in time
+	Inertia<Dim>*               inertia = nullptr; ///< the last of them, in a time step
 	/// Vectors have a block for each field, and first that of the displacements: Dim components a node.
 	DofMap                 map;
 	Constraints            constraints;
 	const FreeDofs&        dofs       = constraints.dofs;
 	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< of displacements [m]
 	Eigen::VectorXd        external;                            ///< body and point forces [N]
-	Eigen::VectorXd        ghostReference;                      ///< displacements of which kinks cost nothing, by GhostSettings::memory; empty: none [m]
+	Eigen::VectorXd        ghostReference;    ///< displacements of which jumps of the gradient cost nothing, by GhostSettings::memory; empty: none [m]
 	Eigen::VectorXd        inertialPredictor; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	/// None of them moves, whatever holds them or not; before Newton's method.

@@ -12,8 +12,8 @@ public:
 	EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const PointCloud<2>&);
 
 	/// How far along n from a position on the line the points of a layer begin that fill the cell beyond, within
-	/// half a cell: what lies before its middle reaches as far as it would if it were as wide as what lies behind.
-	/// Points are on the side that their middles are on, so that a beam may go through the domains of some.
+	/// half a cell: what lies before its centre reaches as far as it would if it were as wide as what lies behind.
+	/// Points are on the side that their centres are on, so that a beam may go through the domains of some.
 	double from(const Vec<2>& position, const Vec<2>& n, int layer) const;
 
 private:

@@ -65,8 +65,8 @@ template <int Dim> using CoupledTermOfStep = std::function<std::unique_ptr<Coupl
 
 /// What a field is as a step begins.
 struct FieldStart {
-	Eigen::VectorXd       before; ///< at all nodes
-	std::map<int, double> given;  ///< at the end of the step, by unknown of the field; all others are free
+	Eigen::VectorXd       before;     ///< at all nodes
+	std::map<int, double> prescribed; ///< at the end of the step, by unknown of the field; all others are free
 };
 
 /// A field besides the displacements, over the nodes of the body.

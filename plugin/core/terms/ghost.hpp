@@ -48,8 +48,8 @@ template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>&, const Cloud
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3, with h of the larger of the two cells: it is
 /// what a nearly empty large cell needs. A cell's modulus is the mean of Young's moduli of its points, weighted by the
 /// volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or
-/// a mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks
-/// for there.
+/// a mean, soft layers could not be strained beside stiff ones: the jump of the gradient of the displacements is what
+/// equilibrium asks for there.
 template <int Dim>
 void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double factor, GhostScaling);
 

@@ -44,7 +44,7 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 /// The parts of a ring's section in the lower and the upper cell along x.
 struct RingParts {
 	double size, face; ///< of a cell, and radius of the face in or above the section [m]
-	double radius[2];  ///< of the middles of the parts [m]
+	double radius[2];  ///< of the centres of the parts [m]
 
 	/// In a refined grid a domain reaches no farther than half a cell.
 	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo, bool isRefined)

@@ -299,7 +299,7 @@ namespace {
                         FieldStart start { pressure.size() > 0 ? pressure : Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size())), {} };
                         const auto x = nodePositions(basis, grid);
                         for (std::size_t n = 0; n < x.size(); ++n)
-                                if (x[n][1] > cells * h - 1e-9) start.given[int(n)] = 0;
+                                if (x[n][1] > cells * h - 1e-9) start.prescribed[int(n)] = 0;
                         return start;
 		};
 		const auto keep    = [&](const CloudBasis<2>&, const Eigen::VectorXd& value, const Eigen::VectorXd&) { pressure = value; };

@@ -254,10 +254,10 @@ namespace {
 		all.internals       = { {}, std::vector<double>(1) };
 		all.parameters      = { std::vector<double>(1) };
 		int number          = 0;
-		forColumns(all, [&](auto& column, Presence presence) {
+		forColumns(all, [&](auto& column, ColumnPolicy policy) {
 			++number;
 			// Columns that no point needs.
-			if (presence == Presence::always || static_cast<void*>(&column) == &all.internals[0]) return;
+			if (policy == ColumnPolicy::always || static_cast<void*>(&column) == &all.internals[0]) return;
 			column.resize(all.size());
 			for (auto& value : column)
 				std::memset(static_cast<void*>(&value), number, sizeof value);
@@ -324,13 +324,13 @@ namespace {
 	{
 		PointCloud<2> cloud;
 		cloud.internals = cloud.parameters = { std::vector<double>(1) };
-		forColumns(cloud, [](auto& column, Presence) {
+		forColumns(cloud, [](auto& column, ColumnPolicy) {
 			column.resize(3);
 			std::memset(static_cast<void*>(column.data()), 0, 3 * sizeof column[0]);
 		});
 		const std::uint64_t whole = checksumOf(cloud);
 		int                 count = 0;
-		forColumns(cloud, [&](auto& column, Presence) {
+		forColumns(cloud, [&](auto& column, ColumnPolicy) {
 			const auto before = column;
 			std::memset(static_cast<void*>(&column[1]), 1, 4);
 			EXPECT_NE(checksumOf(cloud), whole) << count;

@@ -2,7 +2,7 @@
 // Nothing lies behind a wall: a face whose nodes are all held along its normal.
 #include "core/materials/in_space.hpp"
 #include "core/materials/relaxing.hpp"
-#include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/wall_overhang.hpp"
 #include "scenes.hpp"
 #include <set>
 

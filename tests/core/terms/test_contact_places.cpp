@@ -255,7 +255,7 @@ namespace {
 					x += way;
 				taken -= scene.contacts.work;
 				most = std::max(most, taken);
-				EXPECT_LE(scene.contacts.given, 1e-10 * (1 + most));
+				EXPECT_LE(scene.contacts.energyGain, 1e-10 * (1 + most));
 				EXPECT_GE(taken, -1e-10 * (1 + most));
 			}
 			EXPECT_GT(most, 10);
@@ -294,7 +294,7 @@ namespace {
 			const auto all       = mine.cloud;
 			for (int p = 0; p < int(all.size()); ++p)
 				if (division.owns(lowestCell(all.position[p], all.halfSize[p], mine.model.grid, mine.model.basis))) division.id.push_back(p);
-			forColumns(mine.cloud, [&](auto& column, Presence) {
+			forColumns(mine.cloud, [&](auto& column, ColumnPolicy) {
 				const auto ofAll = column;
 				column.clear();
 				for (const std::int64_t p : division.id)

@@ -35,7 +35,7 @@ namespace {
 			double              covered = 0;
 			for (int i = 0; i < 40; ++i)
 				if (const auto sight = near.from((i + 0.5) * h / 4 * Vec<Dim>::Unit(0), up, reach)) {
-					covered += sight->presence * h / 4;
+					covered += sight->areaFraction * h / 4;
 					EXPECT_NEAR(sight->gap, 0.01, 1e-12);
 				}
 			EXPECT_NEAR(covered, edge, 1e-12);
@@ -50,7 +50,7 @@ namespace {
 			const auto sight = SoilNear<Dim>(soil<Dim>(gap), h).from(0.03 * Vec<Dim>::Ones() - 0.03 * up, up, reach);
 			ASSERT_TRUE(sight);
 			EXPECT_NEAR(sight->gap, gap, 1e-12);
-			EXPECT_EQ(sight->presence, 1);
+			EXPECT_EQ(sight->areaFraction, 1);
 			EXPECT_NEAR(sight->young, 1e6, 1e-6);
 		}
 		EXPECT_FALSE(SoilNear<Dim>(soil<Dim>(1.01 * reach), h).from(Vec<Dim>::Zero(), up, reach));
@@ -69,7 +69,7 @@ namespace {
 				const auto sight = near.from((-0.2 + 0.02 * k) * Vec<Dim>::Unit(0), up, reach);
 				ASSERT_TRUE(sight);
 				EXPECT_NEAR(sight->gap, (1 - part) * spacing / 2, 1e-12) << "not that of the row behind";
-				EXPECT_GT(sight->presence, Dim == 2 ? 0.4 : 0.15);
+				EXPECT_GT(sight->areaFraction, Dim == 2 ? 0.4 : 0.15);
 			}
 		}
 	}

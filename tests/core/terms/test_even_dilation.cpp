@@ -2,7 +2,7 @@
 // Divergence correction: added motion of points so that all volumes in a cell change alike.
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/points/even_dilation.hpp"
+#include "core/terms/points/divergence_correction.hpp"
 #include "core/terms/points/point_update.hpp"
 #include "scenes.hpp"
 
@@ -50,7 +50,7 @@ namespace {
 			by.assign(cloud.size(), Vec<Dim>::Zero());
 			forUpdatedPoints<Dim>(
 			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { by[p] = u.displacement; });
-			even = evenDilations(cloud, system.basis, system.points, model.grid, d);
+			even = divergenceCorrections(cloud, system.basis, system.points, model.grid, d);
 		}
 		/// Divergence of the whole field in point p, from differences over a step on both sides.
 		double dilation(int p) const
@@ -77,9 +77,9 @@ namespace {
 			return Vec<Dim>::NullaryExpr([&]() { return random.in(0.1, 0.9); });
 		}
 
-		Eigen::VectorXd                d;
-		std::vector<Vec<Dim>>          by;
-		std::vector<EvenDilation<Dim>> even;
+		Eigen::VectorXd                        d;
+		std::vector<Vec<Dim>>                  by;
+		std::vector<DivergenceCorrection<Dim>> even;
 	};
 
 	template <int Dim> void hasOneDilation(Shape shape)
@@ -102,10 +102,10 @@ namespace {
 		EXPECT_GT(before, 1e-2);
 	}
 
-	TEST(EvenDilation, IsTheSameAllOverTheCellInThePlane) { hasOneDilation<2>(Shape::plane); }
-	TEST(EvenDilation, IsTheSameAllOverTheCellOfARing) { hasOneDilation<2>(Shape::ring); }
-	TEST(EvenDilation, IsTheSameAllOverTheCellAtTheAxis) { hasOneDilation<2>(Shape::ringAtAxis); }
-	TEST(EvenDilation, IsTheSameAllOverTheCellInSpace) { hasOneDilation<3>(Shape::space); }
+	TEST(DivergenceCorrection, IsTheSameAllOverTheCellInThePlane) { hasOneDilation<2>(Shape::plane); }
+	TEST(DivergenceCorrection, IsTheSameAllOverTheCellOfARing) { hasOneDilation<2>(Shape::ring); }
+	TEST(DivergenceCorrection, IsTheSameAllOverTheCellAtTheAxis) { hasOneDilation<2>(Shape::ringAtAxis); }
+	TEST(DivergenceCorrection, IsTheSameAllOverTheCellInSpace) { hasOneDilation<3>(Shape::space); }
 
 	/// So nothing is added to what goes from cell to cell.
 	template <int Dim> void stopsAtFaces(Shape shape)
@@ -123,10 +123,10 @@ namespace {
 			EXPECT_LT(std::abs(scene.even[p].shift[p / 2]), 1e-3 * scene.even.back().shift.norm());
 	}
 
-	TEST(EvenDilation, AddsNothingAcrossFacesInThePlane) { stopsAtFaces<2>(Shape::plane); }
-	TEST(EvenDilation, AddsNothingAcrossFacesOfARing) { stopsAtFaces<2>(Shape::ring); }
-	TEST(EvenDilation, AddsNothingAcrossFacesAtTheAxis) { stopsAtFaces<2>(Shape::ringAtAxis); }
-	TEST(EvenDilation, AddsNothingAcrossFacesInSpace) { stopsAtFaces<3>(Shape::space); }
+	TEST(DivergenceCorrection, AddsNothingAcrossFacesInThePlane) { stopsAtFaces<2>(Shape::plane); }
+	TEST(DivergenceCorrection, AddsNothingAcrossFacesOfARing) { stopsAtFaces<2>(Shape::ring); }
+	TEST(DivergenceCorrection, AddsNothingAcrossFacesAtTheAxis) { stopsAtFaces<2>(Shape::ringAtAxis); }
+	TEST(DivergenceCorrection, AddsNothingAcrossFacesInSpace) { stopsAtFaces<3>(Shape::space); }
 
 	template <class Dimension> using EvenDilationOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(EvenDilationOf, BothDimensions, DimensionName);

@@ -2,7 +2,7 @@
 // Nodes that a contact point presses on: common properties of functions of the cell and wider ones, and where soil
 // ends.
 #include "core/stepping/step_system.hpp"
-#include "core/terms/contact/footprint.hpp"
+#include "core/terms/contact/force_distribution.hpp"
 #include "touched_soil.hpp"
 
 namespace gimpm::testFootprint {
@@ -12,7 +12,7 @@ namespace {
 	TYPED_TEST_SUITE(FootprintOf, BothDimensions, DimensionName);
 
 	/// Sum of the weights times a power of the distance from the place along an axis [cells].
-	template <int Dim> double moment(const Footprint<Dim>& f, const Vec<Dim>& place, int axis, int power)
+	template <int Dim> double moment(const ForceDistribution<Dim>& f, const Vec<Dim>& place, int axis, int power)
 	{
 		double sum = 0;
 		for (int n = 0; n < f.nodes; ++n)
@@ -34,7 +34,7 @@ namespace {
 				ASSERT_TRUE(attached);
 				Vec<Dim> shares = Vec<Dim>::Constant(share);
 				shares[1]       = 0;
-				const Footprint<Dim> wide(*attached, shares, system.basis, scene.model.grid, 0);
+				const ForceDistribution<Dim> wide(*attached, shares, system.basis, scene.model.grid, 0);
 				EXPECT_NEAR(moment(wide, place, 0, 0), 1, 1e-14);
 				for (int a = 0; a < Dim; ++a) {
 					EXPECT_NEAR(moment(wide, place, a, 1), 0, 1e-14);
@@ -51,7 +51,7 @@ namespace {
 		const StepSystem<Dim> system(scene.cloud, scene.model, Load<Dim>(), scene.report);
 		const auto            attached = attach(Vec<Dim>(Vec<Dim>::Constant(2.8 * TouchedSoil<Dim>::h)), system.basis, scene.model.grid);
 		ASSERT_TRUE(attached);
-		const Footprint<Dim> wide(*attached, Vec<Dim>::Ones(), system.basis, scene.model.grid, 0);
+		const ForceDistribution<Dim> wide(*attached, Vec<Dim>::Ones(), system.basis, scene.model.grid, 0);
 		EXPECT_EQ(wide.nodes, attached->nodes);
 		for (int n = 0; n < attached->nodes; ++n) {
 			EXPECT_EQ(wide.weight[n], attached->weight[n]);

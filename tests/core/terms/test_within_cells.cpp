@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pressures of points that F-bar leaves apart within cells: what is taken out of them, and what stays.
 #include "core/stepping/step_system.hpp"
-#include "core/terms/points/within_cells.hpp"
+#include "core/terms/points/pressure_filter.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testWithinCells {

@@ -85,26 +85,27 @@ template <int Dim> bool BodyContact<Dim>::goesOn(const PairPositions<Dim>& x) co
 
 /// Calls f with the derivatives if they are wanted.
 template <int Dim>
-auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairJacobian kind, const std::function<void(const Touching&, const Tangent&)>& f) const -> const Looked&
+auto BodyContact<Dim>::contactAt(const Eigen::VectorXd& d, PairJacobian kind, const std::function<void(const Touching&, const Tangent&)>& f) const
+        -> const ContactState&
 {
-	if (!f && looked_.d.size() == d.size() && looked_.d == d) return looked_;
-	looked_.d = d, looked_.now = positionsAt(d), looked_.touching.clear();
+	if (!f && state_.d.size() == d.size() && state_.d == d) return state_;
+	state_.d = d, state_.now = positionsAt(d), state_.touching.clear();
 	for (const ContactPoint& contactPoint : contactPoints_) {
 		const auto& meeting = meetingOf(contactPoint);
 		const Near* near    = contactPoint.first;
-		auto        end     = near ? pairNow(contactPoint, *near, d, looked_.now) : PairPositions<Dim>();
-		const Near* nearest = nearestOf(contactPoint, &d, looked_.now);
+		auto        end     = near ? pairNow(contactPoint, *near, d, state_.now) : PairPositions<Dim>();
+		const Near* nearest = nearestOf(contactPoint, &d, state_.now);
 		if (!nearest) continue;
-		if (!near || !goesOn(end)) near = nearest, end = pairNow(contactPoint, *near, d, looked_.now);
+		if (!near || !goesOn(end)) near = nearest, end = pairNow(contactPoint, *near, d, state_.now);
 		const double          penalty = penaltyOf(contactPoint);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * contactPoint.area };
 		const auto            start = pair(contactPoint.start, meeting.master, near->piece, start_);
 		const auto            force = pairForce<Dim>(law, start, contactPoint.tangentialForce, end, contactPoint.closed, tolerance_, kind);
 		if (!force) continue;
-		looked_.touching.push_back({ contactPoint, *near, *force, end });
-		if (f) f(looked_.touching.back(), force->tangent);
+		state_.touching.push_back({ contactPoint, *near, *force, end });
+		if (f) f(state_.touching.back(), force->tangent);
 	}
-	return looked_;
+	return state_;
 }
 
 /// The nodes are in the order of their numbers.
@@ -210,11 +211,11 @@ void BodyContact<Dim>::add(
 {
 	if (contactPoints_.empty()) return;
 	if (!K) {
-		for (const Touching& touching : look(d).touching)
+		for (const Touching& touching : contactAt(d).touching)
 			addForces(nodesOf(touching.contactPoint, touching.near), touching.force, factor, force, absoluteContributions);
 		return;
 	}
-	look(d, kind, [&](const Touching& touching, const Tangent& tangent) {
+	contactAt(d, kind, [&](const Touching& touching, const Tangent& tangent) {
 		const auto nodes = nodesOf(touching.contactPoint, touching.near);
 		addForces(nodes, touching.force, factor, force, absoluteContributions);
 		addTangent(nodes, tangent, factor, *K);
@@ -256,7 +257,7 @@ template <int Dim> void BodyContact<Dim>::constrainAt(const Touching& touching, 
 /// Each as if the other one stood still.
 template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
-	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
+	for (const Touching& touching : contactAt(Eigen::VectorXd::Zero(unknowns_)).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);
 		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, constrain);
 	}
@@ -264,7 +265,7 @@ template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Con
 
 template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain& constrain)
 {
-	for (const Touching& touching : look(d).touching) {
+	for (const Touching& touching : contactAt(d).touching) {
 		const auto& meeting = meetingOf(touching.contactPoint);
 		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, constrain);
 	}

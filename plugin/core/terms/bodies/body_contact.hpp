@@ -22,7 +22,7 @@ constexpr double deepestInBodies = 0.25;
 /// between the bodies.
 constexpr double slipSoftnessOfBodies = 4;
 
-/// How far pieces are looked for, over the size of a cell.
+/// How far pieces are state for, over the size of a cell.
 constexpr double reachOfBodies = 0.5;
 
 /// A body of points that others may meet.
@@ -63,13 +63,13 @@ template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
 	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
-	/// With which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp); in explicit ones
+	/// With which forces enter the balance of a time step (core/terms/inertia/time_scheme.hpp); in explicit ones
 	/// what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
-	double                  weight = 1;
-	StepKind                kind   = StepKind::quasiStatic;
-	double                  energy = 0;  ///< that has come into the system before this time step [J]
-	double                  given  = 0;  ///< work in that step beyond what contact had stored [J]
-	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
+	double                  weight     = 1;
+	StepKind                kind       = StepKind::quasiStatic;
+	double                  energy     = 0;  ///< that has come into the system before this time step [J]
+	double                  energyGain = 0;  ///< work in that step beyond what contact had stored [J]
+	const BodyContact<Dim>* acting     = {}; ///< the term of the step that is being made
 };
 
 /// Positions on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
@@ -128,7 +128,7 @@ private:
 		PairPositions<Dim>  now;
 	};
 	/// What touches at some displacements, which is asked for in turn by all that a step has to know of it.
-	struct Looked {
+	struct ContactState {
 		Eigen::VectorXd       d;
 		Positions             now;
 		std::vector<Touching> touching {};
@@ -140,22 +140,23 @@ private:
 	};
 	using Tangent = typename PairForce<Dim>::Tangent;
 
-	void               addContactPoints(int meeting, const StepContext<Dim>&);
-	void               findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void               takeModuli(const StepContext<Dim>&);
-	void               findFirst(ContactPoint&);
-	void               keepApart(ContactPoint* begin, ContactPoint* end);
-	void               begin(ContactPoint&);
-	int                wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
-	Positions          positionsAt(const Eigen::VectorXd& d) const;
-	PairPositions<Dim> pair(const Vec<Dim>& position, int body, int piece, const Positions&) const;
-	PairPositions<Dim> pairNow(const ContactPoint&, const Near&, const Eigen::VectorXd& d, const Positions&) const;
-	PairPositions<Dim> pairThen(const ContactPoint&, const Near&, const Eigen::VectorXd* d, const Positions&) const;
-	const Near*        nearestOf(const ContactPoint&, const Eigen::VectorXd* d, const Positions&) const;
-	bool               isRough() const;
-	bool               goesOn(const PairPositions<Dim>&) const;
-	const Looked& look(const Eigen::VectorXd& d, PairJacobian = PairJacobian::none, const std::function<void(const Touching&, const Tangent&)>& = {}) const;
-	PairJacobian  jacobianKind() const { return isExact_ || !isRough() ? PairJacobian::exact : PairJacobian::symmetric; }
+	void                addContactPoints(int meeting, const StepContext<Dim>&);
+	void                findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void                takeModuli(const StepContext<Dim>&);
+	void                findFirst(ContactPoint&);
+	void                keepApart(ContactPoint* begin, ContactPoint* end);
+	void                begin(ContactPoint&);
+	int                 wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
+	Positions           positionsAt(const Eigen::VectorXd& d) const;
+	PairPositions<Dim>  pair(const Vec<Dim>& position, int body, int piece, const Positions&) const;
+	PairPositions<Dim>  pairNow(const ContactPoint&, const Near&, const Eigen::VectorXd& d, const Positions&) const;
+	PairPositions<Dim>  pairThen(const ContactPoint&, const Near&, const Eigen::VectorXd* d, const Positions&) const;
+	const Near*         nearestOf(const ContactPoint&, const Eigen::VectorXd* d, const Positions&) const;
+	bool                isRough() const;
+	bool                goesOn(const PairPositions<Dim>&) const;
+	const ContactState& contactAt(
+	        const Eigen::VectorXd& d, PairJacobian = PairJacobian::none, const std::function<void(const Touching&, const Tangent&)>& = {}) const;
+	PairJacobian          jacobianKind() const { return isExact_ || !isRough() ? PairJacobian::exact : PairJacobian::symmetric; }
 	std::vector<PairNode> nodesOf(const ContactPoint&, const Near&) const;
 	void                  markNodes(const ContactPoint&, std::vector<int>& nodes) const;
 	void add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings*, PairJacobian) const;
@@ -165,7 +166,7 @@ private:
 	void                    constrainAt(const Touching&, bool sticks, const typename Term<Dim>::Constrain&) const;
 	void                    moveSurfaces(const Positions& now);
 	double                  work(const Eigen::VectorXd& d) const;
-	double                  given(const Eigen::VectorXd& d) const;
+	double                  energyGain(const Eigen::VectorXd& d) const;
 	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
 	double                  approach(const BodyMeeting<Dim>&, const Positions& now) const;
 	const BodyMeeting<Dim>& meetingOf(const ContactPoint& contactPoint) const { return system_.meetings[contactPoint.meeting]; }
@@ -183,7 +184,7 @@ private:
 	Positions                 start_;
 	std::vector<ContactPoint> contactPoints_;
 	std::string               obstacle_;
-	mutable Looked            looked_; // the last one
+	mutable ContactState      state_; // the last one
 };
 
 } // namespace gimpm

@@ -18,7 +18,7 @@ constexpr double mostGiven = 1e-3;
 template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
-	for (const Touching& touching : look(d).touching) {
+	for (const Touching& touching : contactAt(d).touching) {
 		const auto start = pair(touching.contactPoint.start, meetingOf(touching.contactPoint).master, touching.near.piece, start_);
 		for (int i = 0; i <= Dim; ++i)
 			sum += touching.force.force[i].dot(touching.now[i] - start[i]);
@@ -28,7 +28,7 @@ template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 
 /// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a contact
 /// point stays before one plane that does not turn.
-template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) const
+template <int Dim> double BodyContact<Dim>::energyGain(const Eigen::VectorXd& d) const
 {
 	const auto stored = [this](const ContactPoint& contactPoint, double normalForce, const Vec<Dim>& tangentialForce) {
 		return (normalForce * normalForce + slipSoftnessOfBodies * tangentialForce.squaredNorm()) / (2 * penaltyOf(contactPoint));
@@ -36,7 +36,7 @@ template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) cons
 	double sum = work(d);
 	for (const ContactPoint& contactPoint : contactPoints_)
 		if (contactPoint.first) sum -= stored(contactPoint, contactPoint.normalForce, contactPoint.tangentialForce);
-	for (const Touching& now : look(d).touching)
+	for (const Touching& now : contactAt(d).touching)
 		sum += stored(now.contactPoint, now.force.normalForce, now.force.tangentialForce);
 	return sum;
 }
@@ -44,7 +44,7 @@ template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) cons
 template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::VectorXd& d) const
 {
 	if (system_.kind != StepKind::dynamic) return {};
-	const double found = given(d);
+	const double found = energyGain(d);
 	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // as the first step begins nothing has come in
 	return { Failure::gainsEnergy,
 		 sentence("contact of bodies of points would give ", found, " J that it had not stored, of ", system_.energy, " J that have come in"),
@@ -72,16 +72,16 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 
 template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d)
 {
-	const Looked& looked = look(d);
-	const char*   advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
+	const ContactState& state  = contactAt(d);
+	const char*         advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
 	for (const auto& meeting : system_.meetings)
-		if (const double moved = approach(meeting, looked.now); moved > reach_)
+		if (const double moved = approach(meeting, state.now); moved > reach_)
 			return { Failure::penetrated,
 				 sentence(
 				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,
-				         " m against each other in the step, farther than half a cell, within which they are looked for"),
+				         " m against each other in the step, farther than half a cell, within which they are state for"),
 				 advice };
-	for (const Touching& touching : looked.touching) {
+	for (const Touching& touching : state.touching) {
 		const double gap = Facing<Dim>(touching.now).gap;
 		if (gap > -deepestInBodies * cellSize_) continue;
 		const auto& meeting = meetingOf(touching.contactPoint);
@@ -97,7 +97,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d)
 /// Stresses of a piece are the means over its contact points.
 template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const Looked&                    looked = look(d);
+	const ContactState&              state = contactAt(d);
 	std::vector<std::vector<double>> area;
 	for (auto& meeting : system_.meetings) {
 		const std::size_t pieces = system_.bodies[meeting.slave].surface.pieces.size();
@@ -107,9 +107,9 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 	}
 	for (const ContactPoint& contactPoint : contactPoints_)
 		area[contactPoint.meeting][facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]] += contactPoint.area;
-	system_.work  = work(d);
-	system_.given = system_.kind == StepKind::dynamic ? given(d) : 0;
-	for (const auto& [contactPoint, near, force, at] : looked.touching) {
+	system_.work       = work(d);
+	system_.energyGain = system_.kind == StepKind::dynamic ? energyGain(d) : 0;
+	for (const auto& [contactPoint, near, force, at] : state.touching) {
 		auto&     meeting = system_.meetings[contactPoint.meeting];
 		const int whole   = facets_[meeting.slave].whole[contactPoint.piece];
 		meeting.shear[whole] += force.tangentialForce / area[contactPoint.meeting][whole];
@@ -120,7 +120,7 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		meeting.moment += arm.cross(f);
 		meeting.touching += 1, meeting.slipping += force.slips;
 	}
-	moveSurfaces(looked.now);
+	moveSurfaces(state.now);
 }
 
 /// Parts of a piece that is divided have its stresses.

@@ -39,10 +39,10 @@ template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, dou
 	return record->number % (std::int64_t(1) << contactPointBits) >= firstFineNumber;
 }
 
-/// A point whose middle is in a body.
+/// A point whose centre is in a body.
 template <int Dim> struct Inside {
-	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its middle
-	double   gap;                   ///< of the middle, < 0 [m]
+	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its centre
+	double   gap;                   ///< of the centre, < 0 [m]
 
 	/// Whether it is in front of, or rather behind, a contact point, as in SoilNear.
 	bool isAt(const Vec<Dim>& position, const Vec<Dim>& normal, double cellSize) const
@@ -78,7 +78,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 	takeSides();
 	find(step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
-		look(body);
+		checkOverlap(body);
 		addContactPoints(body);
 	}
 	for (int body = 0; body < int(system.bodies.size()); ++body)
@@ -89,7 +89,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 		isSymmetric_ = isSymmetric_ && (contactPoint.law.frictionCoefficient == 0 || contactPoint.law.cap == 0);
 }
 
-/// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
+/// Between nodes soil is straight, so that the centre of a point may get behind a facet by a little, as at the tip of a
 /// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
 /// a Box. Soil in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
 template <int Dim> void Contact<Dim>::takeSides()
@@ -125,7 +125,7 @@ template <int Dim> auto Contact<Dim>::nearTo(int body) const
 }
 
 /// What cannot be computed with a body near the soil.
-template <int Dim> void Contact<Dim>::look(int number)
+template <int Dim> void Contact<Dim>::checkOverlap(int number)
 {
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
@@ -169,7 +169,7 @@ template <int Dim> void Contact<Dim>::addContactPoints(int number, int layer)
 		domains.push_back({ near->centre(), near->half(), near->young, closest.normal });
 		if (closest.gap < 0) inside.push_back({ near->centre(), near->half(), closest.normal, closest.gap });
 	}
-	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as
+	// In statics centres that have got into the body are moved out slowly, also where soil does not slide, as
 	// recall() does where it does: they get in on their way through the grid, be it with the body.
 	const auto moveOut = [&](ContactPoint& contactPoint) {
 		const auto* record = recordOf(contactPoint);
@@ -211,40 +211,39 @@ void Contact<Dim>::addContactPoint(int number, int layer, const SurfacePoint<Dim
 	const auto hides   = [&](const Vec<Dim>& centre) { return isBehind(screens, onBody, centre); };
 	const auto sight   = soil.from(onBody, normal, searchReach(body, grid_), screens.empty() ? typename SoilNear<Dim>::Hides() : hides);
 	if (!sight || isHidden(number, onBody, normal, around)) return;
-	ContactPoint contactPoint;
-	contactPoint.body = number, contactPoint.number = point.number | std::int64_t(layer) << contactPointBits;
-	contactPoint.away = contactPoint.gap = std::max(0., sight->gap);
-	contactPoint.soil                    = onBody + contactPoint.away * normal;
-	contactPoint.normal                  = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
-	contactPoint.presence                = sight->presence;
-	const auto* record                   = recordOf(contactPoint);
+	ContactPoint made;
+	made.body = number, made.number = point.number | std::int64_t(layer) << contactPointBits;
+	made.away = made.gap = std::max(0., sight->gap);
+	made.soil            = onBody + made.away * normal;
+	made.normal          = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
+	made.areaFraction    = sight->areaFraction;
+	const auto* record   = recordOf(made);
 	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
 	// there in full to not being there.
-	if (record && record->touches) contactPoint.presence = std::max(contactPoint.presence, record->presence - 4 * record->travel / grid_.cellSize);
-	if (contactPoint.presence <= 0) return;
-	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
-	// stress.
-	if (record && record->touches && record->gap < 0) contactPoint.soil = onBody + record->gap * normal;
-	const Vec<Dim> beside   = contactPoint.soil + body.begin.rotation * point.aside;
+	if (record && record->touches) made.areaFraction = std::max(made.areaFraction, record->areaFraction - 4 * record->travel / grid_.cellSize);
+	if (made.areaFraction <= 0) return;
+	// Pressed soil begins inside of the body: at its face even pressure would not balance even stress.
+	if (record && record->touches && record->gap < 0) made.soil = onBody + record->gap * normal;
+	const Vec<Dim> beside   = made.soil + body.begin.rotation * point.aside;
 	auto           attached = attach(beside, basis_, grid_, layer);
-	if (attached) contactPoint.soil = beside;
+	if (attached) made.soil = beside;
 	else
-		attached = attach(contactPoint.soil, basis_, grid_, layer); // at an end of the soil
-	if (!attached) return;                                              // behind a wall
-	contactPoint.attached = *attached;
-	contactPoint.pressed  = Footprint<Dim>(*attached);
-	contactPoint.away     = body.proximity(body.begin, contactPoint.soil, 1).gap; // found as at the end: no gap by round-off
-	contactPoint.carried  = body.carried(contactPoint.soil);
-	contactPoint.area     = contactPoint.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
-	contactPoint.young    = sight->young;
-	const double penalty  = body.stiffness * contactPoint.young * contactPoint.area / grid_.cellSize;
-	contactPoint.law      = { penalty, penalty / slipSoftness, body.frictionCoefficient, body.adhesion * contactPoint.area };
-	if (record) recall(contactPoint, *record, sight->gap);
-	contactPoints_.push_back(contactPoint);
+		attached = attach(made.soil, basis_, grid_, layer); // at an end of the soil
+	if (!attached) return;                                      // behind a wall
+	made.attached        = *attached;
+	made.distribution    = ForceDistribution<Dim>(*attached);
+	made.away            = body.proximity(body.begin, made.soil, 1).gap; // found as at the end: no gap by round-off
+	made.carried         = body.carried(made.soil);
+	made.area            = made.areaFraction * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	made.young           = sight->young;
+	const double penalty = body.stiffness * made.young * made.area / grid_.cellSize;
+	made.law             = { penalty, penalty / slipSoftness, body.frictionCoefficient, body.adhesion * made.area };
+	if (record) recall(made, *record, sight->gap);
+	contactPoints_.push_back(made);
 }
 
 /// What pressed stays pressed, wherever domains are seen now. Soil that slides through the grid follows its domains
-/// slowly, so that it does not creep in; in steps in time that would be work of nobody. Soil at rest, along which the
+/// slowly, so that it does not creep in; in time steps that would be work of nobody. Soil at rest, along which the
 /// body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
 template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const ContactRecord<Dim>& record, double seen) const
 {
@@ -262,7 +261,7 @@ template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const C
 template <int Dim> Approach<Dim> Contact<Dim>::approach(const ContactPoint& contactPoint, const Eigen::VectorXd& d) const
 {
 	const auto&    body = system_.bodies[contactPoint.body];
-	const Vec<Dim> u    = contactPoint.pressed.displacement(d);
+	const Vec<Dim> u    = contactPoint.distribution.displacement(d);
 	const Moved    now  = moved(contactPoint);
 	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.tangentialForce };
 	if (body.shape.kind == RigidKind::ball && system_.kind != StepKind::dynamic) {
@@ -287,30 +286,30 @@ template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen
 template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	for (const ContactPoint& contactPoint : contactPoints_)
-		markAttached<Dim>(contactPoint.pressed, contactPoint.pressed, K);
+		markAttached<Dim>(contactPoint.distribution, contactPoint.distribution, K);
 }
 
 template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum)
 {
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
-		addAttachedForce<Dim>(contactPoint.pressed, system_.weight * touched.force(), sum);
-		if (sum.K) addAttachedStiffness<Dim>(contactPoint.pressed, contactPoint.pressed, system_.weight * touched.tangent, *sum.K);
+		addAttachedForce<Dim>(contactPoint.distribution, system_.weight * touched.force(), sum);
+		if (sum.K) addAttachedStiffness<Dim>(contactPoint.distribution, contactPoint.distribution, system_.weight * touched.tangent, *sum.K);
 	});
 	return std::nullopt;
 }
 
 template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force)
 {
-	const auto add = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) {
+	const auto add = [&](const ForceDistribution<Dim>& at, const ContactRecord<Dim>& r) {
 		addAttachedForce<Dim>(at, r.normalForce * r.normal + r.tangentialForce, { force });
 	};
 	for (const ContactPoint& contactPoint : contactPoints_)
-		if (const auto* r = recordOf(contactPoint); r && r->touches) add(contactPoint.pressed, *r);
+		if (const auto* r = recordOf(contactPoint); r && r->touches) add(contactPoint.distribution, *r);
 	for (const auto& [attached, record] : lost_)
-		add(Footprint<Dim>(attached), system_.records[record]);
+		add(ForceDistribution<Dim>(attached), system_.records[record]);
 }
 
-/// Contact points that touched and have no soil in front of them any more, as where it leaps off: in a step in time
+/// Contact points that touched and have no soil in front of them any more, as where it leaps off: in a time step
 /// their forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has
 /// got is not what the soil has lost.
 template <int Dim> void Contact<Dim>::findLost()
@@ -357,11 +356,11 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 	});
 }
 
-/// Distance [cells] of a middle from a sheet below which it lies on it.
+/// Distance [cells] of a centre from a sheet below which it lies on it.
 constexpr double littleGap         = 1e-3;
 constexpr char   whereSoilBegins[] = "; the middle of that point lay on the body as the step began";
 
-/// The middle of a point that ends inside of a body, or on another side of it.
+/// The centre of a point that ends inside of a body, or on another side of it.
 template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d)
 {
 	solveRigidBodyMotion(d);
@@ -412,7 +411,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d)
 /// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap,
 /// it is never above zero. They follow the moduli of the soil from step to step: what they have stored is that of the
 /// stiffness that they have now, as no length of the step changes that.
-template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d)
+template <int Dim> double Contact<Dim>::energyGain(const Eigen::VectorXd& d)
 {
 	double sum = 0;
 	for (const ContactPoint& contactPoint : contactPoints_)
@@ -450,18 +449,18 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	solveRigidBodyMotion(d);
 	for (const ContactPoint& contactPoint : contactPoints_) {
 		const Approach<Dim> near = approach(contactPoint, d);
-		const Vec<Dim>      u = contactPoint.pressed.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
+		const Vec<Dim>      u = contactPoint.distribution.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
 		const double        travel = along.norm(), creep = u.norm() > leastMotion * travel ? travel : 0;
-		records.push_back({ contactPoint.body, contactPoint.number, near.at.gap, false, false, 0, contactPoint.presence, travel, creep,
+		records.push_back({ contactPoint.body, contactPoint.number, near.at.gap, false, false, 0, contactPoint.areaFraction, travel, creep,
 		                    Vec<Dim>::Zero(), near.at.normal, contactPoint.soil + u });
 	}
 	system_.loads.assign(system_.owners.size(), {});
-	system_.work  = 0;
-	system_.given = system_.kind == StepKind::dynamic ? given(d) : 0;
+	system_.work       = 0;
+	system_.energyGain = system_.kind == StepKind::dynamic ? energyGain(d) : 0;
 	forTouching(d, [&](const ContactPoint& contactPoint, const Approach<Dim>&, const Touch<Dim>& touched) {
 		auto& r   = records[&contactPoint - contactPoints_.data()];
 		r.touches = true, r.slips = touched.slips, r.normalForce = touched.normalForce, r.tangentialForce = touched.tangentialForce;
-		system_.work += touched.force().dot(contactPoint.pressed.displacement(d));
+		system_.work += touched.force().dot(contactPoint.distribution.displacement(d));
 		addLoads(contactPoint, r.position, touched);
 	});
 	if (system_.kind == StepKind::dynamic && !isRing_) turnContactPoints(d);

@@ -7,7 +7,7 @@
 #include "core/terms/contact/contact_search.hpp"
 #include "core/terms/contact/contact_sight.hpp"
 #include "core/terms/contact/contact_surface.hpp"
-#include "core/terms/contact/footprint.hpp"
+#include "core/terms/contact/force_distribution.hpp"
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/step_kind.hpp"
 
@@ -20,7 +20,7 @@ template <int Dim> struct ContactRecord {
 	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
 	double       normalForce     = 0;                                           ///< [N]
-	double       presence        = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
+	double       areaFraction    = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
 	double       travel          = 0;                                           ///< how far soil moved along the body in that step [m]
 	double       creep           = 0;                                           ///< the part of it in which soil moves through the grid [m]
 	Vec<Dim>     tangentialForce = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
@@ -54,11 +54,11 @@ template <int Dim> struct ContactSystem {
 	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by body and number
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
-	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp)
+	double                          weight = 1; ///< with which forces enter the balance of a time step (core/terms/inertia/time_scheme.hpp)
 	StepKind                        kind   = StepKind::quasiStatic;
 	double                          energy = 0; ///< that has come into the system before this time step [J]
 	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
-	double        given = 0;
+	double        energyGain = 0;
 	Contact<Dim>* acting {}; ///< the term of the step that is being made
 	/// Those of the owners that move within the step as soil and loads make them; of the bodies that they own the
 	/// end of the step is a result.
@@ -74,7 +74,7 @@ constexpr double slipSoftness = 20;
 /// functions of the grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the
 /// soil there and h of the smallest cells, over the contact point's part of the surface. The gap is that which there
 /// was when soil came into sight, and since then what soil and body have moved towards each other, along the normal of
-/// the contact point's own face: which neither edges nor domains that come and go let jump. In steps in time the
+/// the contact point's own face: which neither edges nor domains that come and go let jump. In time steps the
 /// contact points on a ball go around it with the soil, as a ball that turns in its place is the same ball: else those
 /// before its lowest one would be pressed deeper with all of its way, and lift it. Only prescribed motion of the bodies
 /// is known here. What of a surface lies in another body, or on one that came first, does not count. Where points are
@@ -112,19 +112,19 @@ private:
 	};
 	/// A contact point on a body with soil in front of it.
 	struct ContactPoint {
-		int             body;
-		std::int64_t    number;
-		Vec<Dim>        soil;                               ///< where that begins, at the start of the step
-		Vec<Dim>        carried;                            ///< by which the body would have moved it by the end
-		Vec<Dim>        normal;                             ///< at the end
-		double          away;                               ///< of the soil from the body, at the start [m]
-		double          gap;                                ///< what counts as that
-		double          presence;                           ///< of soil in front of it
-		double          area, young;                        ///< of the surface with soil in front of it [m2]; of the soil [Pa]
-		Vec<Dim>        tangentialForce = Vec<Dim>::Zero(); ///< at the start, turned with the body
-		ContactLaw<Dim> law;
-		Attachment<Dim> attached;
-		Footprint<Dim>  pressed; ///< nodes by which it sees the soil move, and on which it presses
+		int                    body;
+		std::int64_t           number;
+		Vec<Dim>               soil;                               ///< where that begins, at the start of the step
+		Vec<Dim>               carried;                            ///< by which the body would have moved it by the end
+		Vec<Dim>               normal;                             ///< at the end
+		double                 away;                               ///< of the soil from the body, at the start [m]
+		double                 gap;                                ///< what counts as that
+		double                 areaFraction;                       ///< of soil in front of it
+		double                 area, young;                        ///< of the surface with soil in front of it [m2]; of the soil [Pa]
+		Vec<Dim>               tangentialForce = Vec<Dim>::Zero(); ///< at the start, turned with the body
+		ContactLaw<Dim>        law;
+		Attachment<Dim>        attached;
+		ForceDistribution<Dim> distribution; ///< nodes by which it sees the soil move, and on which it presses
 	};
 
 	void             takeSides();
@@ -137,13 +137,13 @@ private:
 	bool             isHidden(int body, const Vec<Dim>& position, const Vec<Dim>& normal, const std::vector<int>& around) const;
 	std::vector<std::pair<int, double>> screensBefore(const Vec<Dim>& position, const std::vector<int>& around) const;
 	bool                                isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& position, const Vec<Dim>& soil) const;
-	void                                look(int body);
+	void                                checkOverlap(int body);
 	auto                                nearTo(int body) const; // first and last in near_
 	const ContactRecord<Dim>*           recordOf(const ContactPoint&) const;
 	Approach<Dim>                       approach(const ContactPoint&, const Eigen::VectorXd& d) const;
 	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f); // f(contact point, approach, touch)
 	std::string                         entered(const Eigen::VectorXd& d);
-	double                              given(const Eigen::VectorXd& d);
+	double                              energyGain(const Eigen::VectorXd& d);
 	void                                addLoads(const ContactPoint&, const Vec<Dim>& position, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const ContactPoint&, const Touch<Dim>&) const;
 	void                                findLost();

@@ -13,8 +13,8 @@ template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const ContactPoint& at, c
 	        + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
 }
 
-/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil
-/// has slipped from there in a step in time.
+/// On a ball: where the normal of its face goes through its centre, around which pressure does not turn it. The soil
+/// has slipped from there in a time step.
 template <int Dim> Vec<Dim> Contact<Dim>::pointOfForce(const ContactPoint& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
 {
 	const auto& body = system_.bodies[at.body];

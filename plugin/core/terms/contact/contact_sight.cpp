@@ -45,7 +45,7 @@ template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains,
 	std::sort(bins_.begin(), bins_.end());
 }
 
-/// Calls f for the domains with their middles in the box, and others beside.
+/// Calls f for the domains with their centres in the box, and others beside.
 template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const
 {
 	if ((low.array() > high_.array()).any() || (high.array() < low_.array()).any()) return;
@@ -88,7 +88,7 @@ double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, 
 /// How much soil there is is a volume, which does not jump: that in a box in front of the contact point where the soil
 /// begins. A quarter of the box is nothing, three quarters are full, so that over the contact points on both sides of
 /// where soil ends the parts add up to the area that it covers. How much of the box that end leaves along an axis is
-/// told by the middle of the soil in it; what is missing besides are gaps.
+/// told by the centre of the soil in it; what is missing besides are gaps.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
@@ -105,16 +105,16 @@ template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& posi
 		volume += part, stiff += part * d.young, moment += part * ((low + high) / 2 - middle);
 	});
 	if (volume == 0) return std::nullopt;
-	const auto counts   = [](double part) { return std::clamp(2 * part - 0.5, 0., 1.); };
-	double     presence = 1, tiled = volume / std::pow(2 * half, Dim);
+	const auto counts       = [](double part) { return std::clamp(2 * part - 0.5, 0., 1.); };
+	double     areaFraction = 1, tiled = volume / std::pow(2 * half, Dim);
 	int        across;
 	normal.cwiseAbs().maxCoeff(&across);
 	for (int a = 0; a < Dim; ++a) {
 		if (a == across) continue;
 		const double left = 1 - std::abs(moment[a]) / (volume * half);
-		presence *= counts(left), tiled /= left;
+		areaFraction *= counts(left), tiled /= left;
 	}
-	return Sight { gap, presence * counts(tiled), stiff / volume };
+	return Sight { gap, areaFraction * counts(tiled), stiff / volume };
 }
 
 template class SoilNear<2>;

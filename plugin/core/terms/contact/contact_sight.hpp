@@ -19,9 +19,9 @@ template <int Dim> struct SoilDomain {
 
 /// Soil in front of a contact point.
 struct Sight {
-	double gap;      ///< to it along the normal, < 0 where it overlaps the body [m]
-	double presence; ///< from 0, no soil, to 1, soil in full
-	double young;    ///< mean modulus [Pa]
+	double gap;          ///< to it along the normal, < 0 where it overlaps the body [m]
+	double areaFraction; ///< from 0, no soil, to 1, soil in full
+	double young;        ///< mean modulus [Pa]
 };
 
 /// The domains near one body, by bins of the size of the smallest cells.
@@ -31,7 +31,7 @@ public:
 
 	/// Looks from a contact point along the normal, no farther than the reach. Soil whose closest side of the body
 	/// looks elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the
-	/// middles of domains, empty where nothing hides any.
+	/// centres of domains, empty where nothing hides any.
 	using Hides = std::function<bool(const Vec<Dim>& centre)>;
 	std::optional<Sight> from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& = {}) const;
 

@@ -218,7 +218,7 @@ template <int Dim> void Contact<Dim>::widen(int number)
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
 		const int layer = int(own[i]->number >> contactPointBits);
-		if (!shares[i].isZero(0)) own[i]->pressed = Footprint<Dim>(own[i]->attached, shares[i], basis_, grid_, layer, mirrors[i]);
+		if (!shares[i].isZero(0)) own[i]->distribution = ForceDistribution<Dim>(own[i]->attached, shares[i], basis_, grid_, layer, mirrors[i]);
 	}
 }
 

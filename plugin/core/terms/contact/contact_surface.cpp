@@ -16,10 +16,10 @@ template <int Dim> struct Box {
 
 template <int Dim> using SurfacePoints = std::vector<SurfacePoint<Dim>>;
 
-/// An even number of parts of a length, so that its middle is between two of them.
+/// An even number of parts of a length, so that its centre is between two of them.
 int evenParts(double length, double spacing) { return 2 * std::max(1, int(std::ceil(length / (2 * spacing) - 1e-9))); }
 
-/// Of the part of a surface that reaches from its middle as far as `half` to both sides, along one or two lines.
+/// Of the part of a surface that reaches from its centre as far as `half` to both sides, along one or two lines.
 std::array<Vec<2>, 2> cornersAround(const Vec<2>& x, const Vec<2>& half) { return { x - half, x + half }; }
 std::array<Vec3, 4>   cornersAround(const Vec3& x, const Vec3& half, const Vec3& other)
 {
@@ -45,7 +45,7 @@ SurfacePoints<2> onBall(double radius, const Mat<2>& axes, double spacing, const
 SurfacePoints<3> onBall(double radius, const Mat3& axes, double spacing, const Box<3>& box)
 {
 	const int           parts = evenParts(M_PI / 2 * radius, spacing);
-	std::vector<double> tangents; // at the ends of the parts and, between these, in their middles
+	std::vector<double> tangents; // at the ends of the parts and, between these, in their centres
 	for (int k = -parts; k <= parts; ++k)
 		tangents.push_back(std::tan(M_PI / 4 * k / parts));
 	const auto areaAt = [&](int i, int j) {
@@ -179,7 +179,7 @@ SurfacePoints<2> onSheet(const RigidShape<2>& shape, double, double spacing, con
 	return onSheet(shape.corners, spacing, shape.isTwoSided, box);
 }
 
-/// The middles of the triangles into which lines parallel to the edges cut it.
+/// The centres of the triangles into which lines parallel to the edges cut it.
 SurfacePoints<3> onSheet(const RigidShape<3>& shape, double halfThickness, double spacing, const Box<3>& box)
 {
 	const auto&      corner = shape.corners;

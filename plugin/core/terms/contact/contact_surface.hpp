@@ -23,7 +23,7 @@ template <int Dim> struct SurfacePoint {
 /// the spacing.
 int partsOfEdge(RigidKind, double length, double spacing);
 
-/// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
+/// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the centre of a ball
 /// or a block: those within a box in the body's axes. A two-sided surface has points on both sides. A block's face that
 /// is narrower than a cell, four spacings, acts on the soil over the width of one: a single node of the grid gives way
 /// more easily than two, and what a narrower face meets would depend on where it stands among them.

@@ -80,7 +80,7 @@ template <int Dim> struct RigidBody {
 	/// Its smallest size; planes and rigid sheets have none [m].
 	double thickness() const;
 
-	/// Of a sheet, from its middle to the surface on either side [m].
+	/// Of a sheet, from its centre to the surface on either side [m].
 	double halfThickness() const { return shape.kind == RigidKind::sheet && nodes > 0 ? shape.radius : 0; }
 
 	/// Whether what presses along a normal, in its own axes, is as narrow as that.

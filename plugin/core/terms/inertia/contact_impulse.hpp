@@ -8,7 +8,7 @@
 namespace gimpm {
 
 /// Forces r with which contact resists at the end of the step act through all of it (Kane et al. 1999): they solve
-/// M (v - v_free) + T (r(T v) - r_0) = 0 at the free degrees of freedom, where v_free has the velocities in the middle
+/// M (v - v_free) + T (r(T v) - r_0) = 0 at the free degrees of freedom, where v_free has the velocities in the centre
 /// of the step, with the part r_0 of them that the rest of the step knows of. Of a spring that stays before one plane
 /// this takes energy, however stiff it is, and so it does not shorten the critical step.
 template <int Dim> class ContactImpulse {

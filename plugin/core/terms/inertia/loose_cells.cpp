@@ -56,7 +56,7 @@ void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 	}
 }
 
-/// Adds a point to the cell of its middle, if that has a slot.
+/// Adds a point to the cell of its centre, if that has a slot.
 template <int Dim>
 void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, const Patch<Dim>& patch, const PointBasis<Dim>& axes, double mass)
 {

@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// A populated cell: its nodes, the first axis fastest, and the points whose middle is in it with their mass [kg].
+/// A populated cell: its nodes, the first axis fastest, and the points whose centre is in it with their mass [kg].
 template <int Dim> struct LooseCell {
 	static constexpr int     corners = 1 << Dim;
 	std::array<int, corners> node {};

@@ -69,7 +69,7 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const
 /// The points in them, of all processes.
 template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const StepContext<Dim>&);
 
-/// What the extent of points in loose cells adds to the inertia of their middles, as the mass of these cells that
+/// What the extent of points in loose cells adds to the inertia of their centres, as the mass of these cells that
 /// resists accelerations, while it is not remembered: of laws that flow.
 template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const StepContext<Dim>&);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How displacements, velocities and accelerations of a step in time hang together.
+// How displacements, velocities and accelerations of a time step hang together.
 #pragma once
 
 namespace gimpm {
@@ -9,7 +9,7 @@ namespace gimpm {
 /// 1993).
 struct TimeScheme {
 	double beta = 0.25, gamma = 0.5, alphaM = 0, alphaF = 0;
-	/// Internal forces are those after half of the displacements (Model::atMiddle), and loads those in the middle
+	/// Internal forces are those after half of the displacements (Model::atMiddle), and loads those in the centre
 	/// of the step.
 	bool atMiddle   = false;
 	bool isExplicit = false; ///< nothing is solved but for the mass (core/stepping/explicit_step.hpp)

@@ -47,7 +47,7 @@ template <int Dim> PointBasis<Dim> atCentres(const Patch<Dim>& patch, const Poin
 	return result;
 }
 
-/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over
+/// Radius of the centre of the section of the matter in each cell: of parts with the volumes V at r the sum of V over
 /// that of V / r.
 template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {

@@ -28,7 +28,7 @@ template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<
 	return value;
 }
 
-/// Displacement in the middle of a domain. Of a ring the functions of the hoop strain give it over the radius, which is
+/// Displacement in the centre of a domain. Of a ring the functions of the hoop strain give it over the radius, which is
 /// one over their sum.
 template <int Axes, int Dim, int Span> GIMPM_INLINE Vec<Dim> displacementOf(const CloudBasis<Dim>& basis, int point, const PatchVectors<Dim, Span>& u)
 {

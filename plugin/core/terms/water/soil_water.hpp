@@ -69,7 +69,7 @@ template <int Dim> struct SoilWater {
 	double                                                     lastDuration = 0;
 	bool                                                       keepsGrowth  = true;  ///< which tells where the next step may begin, too
 	double                                                     stored       = 0;     ///< volume taken up by the body in the last accepted step [m3]
-	bool                                                       wantsWork    = false; ///< in steps in time
+	bool                                                       wantsWork    = false; ///< in time steps
 	double                                                     work         = 0;     ///< of the excess pressures on the soil in the last accepted step [J]
 };
 

@@ -180,7 +180,7 @@ template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
 {
 	Work sum;
 	sum.ofContacts = system->work;
-	sum.given      = std::max(0., system->given);
+	sum.given      = std::max(0., system->energyGain);
 	return sum;
 }
 

@@ -60,7 +60,7 @@ namespace {
 	void addFields(Picture& picture, const ContactPointRecord* r, Real area)
 	{
 		const bool touches = r && r->touches;
-		const Real wetted  = r ? area * r->presence : area;
+		const Real wetted  = r ? area * r->areaFraction : area;
 		picture.set("force", touches ? r->force() : Vector3r(Vector3r::Zero()));
 		picture.set("pressure", touches ? r->normalForce / wetted : 0);
 		picture.set("shear", touches ? r->tangentialForce.norm() / wetted : 0);

@@ -13,7 +13,7 @@ struct ContactPointRecord {
 
 	std::int64_t number;
 	int          body; // id
-	Real         gap, normalForce, presence, travel, creep;
+	Real         gap, normalForce, areaFraction, travel, creep;
 	bool         touches, slips;
 	Vector3r     tangentialForce, normal, position;
 
@@ -26,7 +26,7 @@ struct ContactPointRecord {
 	void        appendTo(vector<Real>& numbers) const
 	{
 		if (numbers.empty()) numbers.push_back(mark);
-		for (const Real x : { Real(number), Real(body), gap, normalForce, presence, travel, creep, Real(touches), Real(slips) })
+		for (const Real x : { Real(number), Real(body), gap, normalForce, areaFraction, travel, creep, Real(touches), Real(slips) })
 			numbers.push_back(x);
 		for (const Vector3r& v : { tangentialForce, normal, position })
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);

@@ -27,7 +27,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		const gimpm::Vec<Dim> tangentialForce = r.tangentialForce.template head<Dim>(), normal = r.normal.template head<Dim>(),
 		                      place = r.position.template head<Dim>();
 		system->records.push_back(
-		        { body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.presence, r.travel, r.creep, friction, normal, place });
+		        { body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.areaFraction, r.travel, r.creep, friction, normal, place });
 	});
 }
 
@@ -63,7 +63,7 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			             members[r.body].body->id,
 			             r.gap,
 			             r.normalForce,
-			             r.presence,
+			             r.areaFraction,
 			             r.travel,
 			             r.creep,
 			             r.touches,

@@ -10,7 +10,7 @@ namespace gimpm {
 /// point is at one, and half a cell to either side of it between two nodes, where soil so gives way less. The quadratic
 /// B-splines of the grid are means of the linear ones over a cell around the contact point, and spread a force alike
 /// wherever it is.
-template <int Dim> struct Footprint {
+template <int Dim> struct ForceDistribution {
 	static constexpr int most = Dim == 2 ? 9 : 27;
 
 	int                          nodes = 0;
@@ -18,10 +18,10 @@ template <int Dim> struct Footprint {
 	std::array<double, most>     weight {}; ///< values of the functions [-]
 	std::array<Index<Dim>, most> at {};     ///< coordinates of the nodes, as in the attachment
 
-	Footprint() = default;
+	ForceDistribution() = default;
 
 	/// The functions of the cell.
-	explicit Footprint(const Attachment<Dim>& attachment) : nodes(attachment.nodes)
+	explicit ForceDistribution(const Attachment<Dim>& attachment) : nodes(attachment.nodes)
 	{
 		for (int n = 0; n < nodes; ++n)
 			node[n] = attachment.node[n], weight[n] = attachment.weight[n], at[n] = attachment.index(n);
@@ -30,7 +30,7 @@ template <int Dim> struct Footprint {
 	/// `shares` of the splines along each axis, from 0 to 1, where the soil goes on; along others those of the
 	/// cell. `mirrors`: axes along which the lower (-1) or upper (1) face of its cell is a plane of symmetry, where
 	/// nodes beyond are images of those before.
-	Footprint(
+	ForceDistribution(
 	        const Attachment<Dim>& attachment, const Vec<Dim>& shares, const CloudBasis<Dim>&, const Grid<Dim>&, int layer,
 	        const Index<Dim>& mirrors = Index<Dim>::Zero());
 
@@ -45,7 +45,7 @@ template <int Dim> struct Footprint {
 	}
 };
 
-/// Along an axis, on which side of its cell a contact point is: 1 or -1, and 0 in the middle, where splines and linear
+/// Along an axis, on which side of its cell a contact point is: 1 or -1, and 0 in the centre, where splines and linear
 /// functions are the same.
 template <int Dim> int sideInCell(const Attachment<Dim>&, int axis);
 

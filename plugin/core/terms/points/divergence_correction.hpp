@@ -13,7 +13,7 @@
 namespace gimpm {
 
 /// Added to what the functions of the grid do to a point in a step.
-template <int Dim> struct EvenDilation {
+template <int Dim> struct DivergenceCorrection {
 	Vec<Dim> shift  = Vec<Dim>::Zero(); ///< displacement [m]
 	Vec<Dim> growth = Vec<Dim>::Zero(); ///< of lengths along the axes
 	double   hoop   = 0;                ///< and around the axis of a body of revolution
@@ -22,7 +22,7 @@ template <int Dim> struct EvenDilation {
 
 /// Of each point in the order of the cloud, for displacements d of all nodes.
 template <int Dim>
-std::vector<EvenDilation<Dim>> evenDilations(
+std::vector<DivergenceCorrection<Dim>> divergenceCorrections(
         const PointCloud<Dim>&, const CloudBasis<Dim>&, const StepPoints<Dim>&, const Grid<Dim>&, const Eigen::VectorXd& d);
 
 } // namespace gimpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/contact/footprint.hpp"
+#include "core/terms/contact/force_distribution.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ AlongAxis linear(int cell, double local) { return { cell, 2, { 1 - local, local,
 AlongAxis weightsAlong(int cell, double local, double share)
 {
 	const bool   isLow = local < 0.5;
-	const double t     = isLow ? local : local - 1; // from the middle one of the three nodes
+	const double t     = isLow ? local : local - 1; // from the centre one of the three nodes
 	AlongAxis    f { cell - isLow, 3, { (0.5 - t) * (0.5 - t) / 2, 0.75 - t * t, (0.5 + t) * (0.5 + t) / 2 } };
 	for (double& weight : f.weight)
 		weight *= share;
@@ -45,9 +45,9 @@ template <int Dim> int sideInCell(const Attachment<Dim>& attachment, int axis)
 }
 
 template <int Dim>
-Footprint<Dim>::Footprint(
+ForceDistribution<Dim>::ForceDistribution(
         const Attachment<Dim>& attachment, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer, const Index<Dim>& mirrors)
-        : Footprint(attachment)
+        : ForceDistribution(attachment)
 {
 	std::array<AlongAxis, Dim> along;
 	for (int a = 0; a < Dim; ++a)
@@ -56,9 +56,9 @@ Footprint<Dim>::Footprint(
 		if (!(shares[a] > 0) || sideInCell(attachment, a) == 0) continue;
 		const AlongAxis kept = along[a];
 		along[a]             = weightsAlong(attachment.cell[a], inCell(attachment, a), shares[a]);
-		Footprint  wider;
-		bool       isThere = true;
-		Index<Dim> i       = Index<Dim>::Zero();
+		ForceDistribution wider;
+		bool              isThere = true;
+		Index<Dim>        i       = Index<Dim>::Zero();
 		for (int b = 0; b < Dim && isThere;) {
 			const int n     = wider.nodes++;
 			wider.weight[n] = 1;
@@ -75,8 +75,8 @@ Footprint<Dim>::Footprint(
 	}
 }
 
-template struct Footprint<2>;
-template struct Footprint<3>;
+template struct ForceDistribution<2>;
+template struct ForceDistribution<3>;
 template int sideInCell(const Attachment<2>&, int);
 template int sideInCell(const Attachment<3>&, int);
 

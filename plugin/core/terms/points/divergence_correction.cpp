@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/points/even_dilation.hpp"
+#include "core/terms/points/divergence_correction.hpp"
 #include "core/terms/parts_in_cells.hpp"
 
 namespace gimpm {
@@ -36,7 +36,7 @@ template <int Dim> struct CellCorners {
 	}
 };
 
-/// A part of a domain in a cell: of its middle from that of the cell, and half lengths, over the size of the cell.
+/// A part of a domain in a cell: of its centre from that of the cell, and half lengths, over the size of the cell.
 template <int Dim> struct PartInCell {
 	Vec<Dim> away, half;
 
@@ -45,9 +45,9 @@ template <int Dim> struct PartInCell {
 };
 
 /// In cells of the size 1. What the dilation has by the product of two coordinates is shared by both.
-template <int Dim> EvenDilation<Dim> evenIn(const CellCorners<Dim>& corners, const PartInCell<Dim>& part)
+template <int Dim> DivergenceCorrection<Dim> evenIn(const CellCorners<Dim>& corners, const PartInCell<Dim>& part)
 {
-	EvenDilation<Dim> even;
+	DivergenceCorrection<Dim> even;
 	for (int b = 0; b < Dim; ++b) {
 		double gradient = 0; // of the dilation along b
 		for (int a = 0; a < Dim; ++a)
@@ -61,12 +61,12 @@ template <int Dim> EvenDilation<Dim> evenIn(const CellCorners<Dim>& corners, con
 /// In a ring whose cell begins at the radius `inner`. With u_x = alpha + beta r the dilation is 2 beta + alpha / r +
 /// du_y / dy. What differs with the height goes into the shift along the axis; of the rest, at half the height, r times
 /// the radial shift is the integral over r dr, which vanishes at both faces as the mean over the ring is taken off.
-EvenDilation<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& part, double inner)
+DivergenceCorrection<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& part, double inner)
 {
-	EvenDilation<2> even;
-	const auto&     u      = corners.u;
-	const double    middle = inner + 0.5, x = part.away[0], r = middle + x;
-	const double    growing = corners.mixed(0, 0, 1, Vec<2>::Zero()), along = 2 * growing + (u[2][0] - u[0][0] - growing * inner) / r;
+	DivergenceCorrection<2> even;
+	const auto&             u      = corners.u;
+	const double            middle = inner + 0.5, x = part.away[0], r = middle + x;
+	const double            growing = corners.mixed(0, 0, 1, Vec<2>::Zero()), along = 2 * growing + (u[2][0] - u[0][0] - growing * inner) / r;
 	even.shift[1]    = -along * part.square(1);
 	even.growth[1]   = -along * part.away[1];
 	const double low = (u[0][0] + u[2][0]) / 2, high = (u[1][0] + u[3][0]) / 2, alpha = low - (high - low) * inner;
@@ -80,7 +80,7 @@ EvenDilation<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& p
 
 /// In a cell of point i of the basis; `halfSize`: along x, where it `isInTwo` cells and this `isUpper` or not.
 template <int Dim>
-EvenDilation<Dim> evenAround(
+DivergenceCorrection<Dim> evenAround(
         const CloudBasis<Dim>& basis, int i, const CellCorners<Dim>& corners, const PartInCell<Dim>& part, double halfSize, bool isInTwo, bool isUpper)
 {
 	if constexpr (Dim == 2)
@@ -117,17 +117,17 @@ template <int Dim> double ratioOf(const Patch<Dim>& patch, const StepPoints<Dim>
 } // namespace
 
 template <int Dim>
-std::vector<EvenDilation<Dim>> evenDilations(
+std::vector<DivergenceCorrection<Dim>> divergenceCorrections(
         const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const Grid<Dim>& grid, const Eigen::VectorXd& d)
 {
-	std::vector<EvenDilation<Dim>> result(cloud.size());
+	std::vector<DivergenceCorrection<Dim>> result(cloud.size());
 #pragma omp parallel for schedule(static)
 	for (int k = 0; k < int(basis.patches.size()); ++k) {
 		const auto&  patch = basis.patches[k];
 		const double h     = grid.size(Grid<Dim>::level(patch.cell));
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			EvenDilation<Dim> sum;
-			const Vec<Dim>    half = (cloud.halfSize[basis.order[i]] / h).cwiseMin(0.5);
+			DivergenceCorrection<Dim> sum;
+			const Vec<Dim>            half = (cloud.halfSize[basis.order[i]] / h).cwiseMin(0.5);
 			forParts(patch, basis.axes[i], [&](int c, int, const auto& parts, double share) {
 				const CellCorners<Dim> corners(patch, c, d);
 				if (!corners.isWhole) return;
@@ -145,7 +145,7 @@ std::vector<EvenDilation<Dim>> evenDilations(
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template std::vector<EvenDilation<Dim>> evenDilations(                                                                                                 \
+	template std::vector<DivergenceCorrection<Dim>> divergenceCorrections(                                                                                 \
 	        const PointCloud<Dim>&, const CloudBasis<Dim>&, const StepPoints<Dim>&, const Grid<Dim>&, const Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -12,12 +12,12 @@ namespace gimpm {
 /// the wall, or to the open box.
 template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
-/// A domain moves by averages over all of it, of which the part behind a wall counts as still: a middle that is carried
+/// A domain moves by averages over all of it, of which the part behind a wall counts as still: a centre that is carried
 /// to the wall could pass it, and would be alone behind it. One that has moved so since `before` moves by the functions
 /// of its position instead, which at the wall are those of constrained nodes.
 template <int Dim> void keepBeforeWalls(PointCloud<Dim>&, const PointCloud<Dim>& before, const StepSystem<Dim>&, const Eigen::VectorXd& d);
 
-/// Adds the forces of their inertia in a step in time to the reactions, when the motion has taken it over.
+/// Adds the forces of their inertia in a time step to the reactions, when the motion has taken it over.
 template <int Dim> void addInertiaBeyondWalls(const StepSystem<Dim>&, const Motion<Dim>&, StepReport&);
 
 } // namespace gimpm

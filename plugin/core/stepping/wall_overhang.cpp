@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/wall_overhang.hpp"
 #include "core/grid/attachment.hpp"
 #include "core/grid/point_nodes.hpp"
 #include <algorithm>
@@ -132,7 +132,7 @@ template <int Dim> void keepBeforeWalls(PointCloud<Dim>& cloud, const PointCloud
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int      p    = system.basis.order[i];
 			const Vec<Dim> from = before.position[p] - faces, to = cloud.position[p] - faces;
-			int            centre = 0; // cell of the window that the middle is in
+			int            centre = 0; // cell of the window that the centre is in
 			for (int a = 0; a < Dim; ++a)
 				centre |= int((patch.span >> a & 1) && from[a] >= 0) << a;
 			for (int a = 0; a < Dim; ++a) {

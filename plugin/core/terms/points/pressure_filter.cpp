@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/points/within_cells.hpp"
+#include "core/terms/points/pressure_filter.hpp"
 #include "core/materials/law.hpp"
 #include <algorithm>
 

@@ -50,7 +50,7 @@ template <int Dim> FreeContactPoint<Dim> Contact<Dim>::seen(const ContactPoint& 
 {
 	const Approach<Dim> near    = approach(contactPoint, d);
 	const auto          touched = touch(contactPoint.law, near, tolerance_);
-	const Vec<Dim>      arm     = pointOfForce(contactPoint, contactPoint.soil + contactPoint.pressed.displacement(d), near.at.normal) - owner;
+	const Vec<Dim>      arm     = pointOfForce(contactPoint, contactPoint.soil + contactPoint.distribution.displacement(d), near.at.normal) - owner;
 	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
 	return { arm, touched->force(), touched->tangent, near.at.gap, near.at.normal };
 }
@@ -91,7 +91,9 @@ template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
 	for (int number = 0; number < int(system_.free.size()); ++number) {
 		std::vector<int> nodes;
 		for (const ContactPoint* contactPoint : contactPointsOfFree(number))
-			nodes.insert(nodes.end(), contactPoint->pressed.node.begin(), contactPoint->pressed.node.begin() + contactPoint->pressed.nodes);
+			nodes.insert(
+			        nodes.end(), contactPoint->distribution.node.begin(),
+			        contactPoint->distribution.node.begin() + contactPoint->distribution.nodes);
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		for (const int a : nodes)
@@ -115,10 +117,10 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 			all.push_back(seen(*contactPoint, system_.owners[free.owner], d));
 			if (all.back().tangent.isZero(0)) continue;
 			const RigidBodyJacobian<Dim> jacobian(all.back());
-			for (int n = 0; n < contactPoint->pressed.nodes; ++n) {
-				AtNode<Dim>& node = nodes[contactPoint->pressed.node[n]];
-				node.forces += contactPoint->pressed.weight[n] * jacobian.forceByBody(all.back().tangent);
-				node.moves += contactPoint->pressed.weight[n] * jacobian.bodyByPosition(all.back().tangent);
+			for (int n = 0; n < contactPoint->distribution.nodes; ++n) {
+				AtNode<Dim>& node = nodes[contactPoint->distribution.node[n]];
+				node.forces += contactPoint->distribution.weight[n] * jacobian.forceByBody(all.back().tangent);
+				node.moves += contactPoint->distribution.weight[n] * jacobian.bodyByPosition(all.back().tangent);
 			}
 		}
 		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);
