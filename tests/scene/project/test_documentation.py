@@ -157,6 +157,20 @@ def test_what_the_developers_page_names_is_there():
 	assert not [path for path in paths if not (root / path).exists() and not (root / 'plugin' / path).exists()]
 
 
+def test_the_glossary_leads_from_standard_words_to_files():
+	text = (root / 'plugin/docs/glossary.md').read_text()
+	rows = [[cell.strip() for cell in line.strip('|').split('|')] for line in text.splitlines() if line.startswith('|') and '---' not in line]
+	terms = [row for row in rows if row[0] != 'term']
+	assert len(terms) > 60 and all(len(row) == 4 for row in terms)
+	assert not [row[0] for row in terms if len(row[2].split()) > 15]
+	assert len({row[0] for row in terms}) == len(terms)
+	paths = {path for row in terms for path in re.findall('`([^`]+)`', row[3])}
+	assert not [path for path in paths if not (root / 'plugin' / path).exists() and not (root / 'plugin/core' / path).exists()]
+	words = ' '.join(f'{row[0]}, {row[1]}' for row in terms)
+	for word in ('Jacobian', 'quadrature', 'integration point', 'Dirichlet', 'constraint', 'return mapping'):
+		assert word in words, word
+
+
 def test_the_examples_of_the_developers_page_are_in_the_files_that_it_lists():
 	"""No other file needs a line for them."""
 	listed = set(re.findall(r'`(\w+/\w+/\w+\.[ch]pp)`', sectionOf(developersPage, 'Add a law')))
