@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-/// Of bytes, eight at a time, in turn by several sums: one alone would wait for itself at each word.
+/// Checksum of bytes, eight at a time, in turn by several sums: one alone would wait for itself at each word.
 class Checksum {
 public:
 	template <class T> void mix(const std::vector<T>& numbers)

@@ -9,7 +9,8 @@ namespace gimpm {
 /// A solve goes with the nodes, an assembly with their points, and the solves take longer.
 constexpr double solveOverAssembly = 2;
 
-/// Of things in their order, with what each takes: the first one of each part, and their number.
+/// Cuts a sequence of elements, given the work of each, into parts of about equal work: first element of each part, and
+/// number of elements.
 inline std::vector<int> evenParts(const std::vector<double>& work, int parts)
 {
 	const double     whole  = std::accumulate(work.begin(), work.end(), 0.);

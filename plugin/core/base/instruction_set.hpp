@@ -10,7 +10,7 @@ namespace gimpm {
 #define GIMPM_TARGET_AVX2 [[gnu::target("arch=x86-64-v3")]]
 #endif
 
-// With the checks of a sanitizer, one large function would keep the compiler busy for a quarter of an hour.
+// A sanitizer's checks in one large function would keep the compiler busy for a quarter of an hour.
 #if defined(__SANITIZE_ADDRESS__) || defined(GIMPM_COMPILES_QUICKLY)
 #define GIMPM_FLATTEN
 #else

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-// With the lengths of the texts last.
+// LAPACK functions, with the lengths of the texts last.
 extern "C" {
 void dsyev_(
         const char* job, const char* triangle, const int* size, double* matrix, const int* stride, double* values, double* work, const int* workSize, int* info,

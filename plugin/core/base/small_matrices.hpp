@@ -16,7 +16,7 @@ SymmetricEigen symmetricEigen(Eigen::MatrixXd symmetric);
 /// X of A X = B, numbers that are not finite where A is singular.
 Eigen::MatrixXd solutionOf(Eigen::MatrixXd A, Eigen::MatrixXd B);
 
-/// Of a symmetric matrix; false if it has numbers that are not finite.
+/// True for a positive definite symmetric matrix; false if it has numbers that are not finite.
 bool isPositiveDefinite(Eigen::MatrixXd symmetric);
 
 } // namespace gimpm

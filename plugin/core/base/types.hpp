@@ -21,8 +21,8 @@ template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 /// position in the grid.
 using Key = std::uint64_t;
 
-/// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that
-/// is missing or empty is at its initial values.
+/// Internal variables of the points, column by column (core/materials/law.hpp says which is which). A column that is
+/// missing or empty is at its initial values.
 using InternalColumns = std::vector<std::vector<double>>;
 
 /// Parameters of the laws of material points where they differ from point to point: column k has the k-th parameter of

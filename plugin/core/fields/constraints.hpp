@@ -15,7 +15,7 @@ struct FreeDofs {
 	const AffineConstraints* affineConstraints = nullptr; ///< null: there are none
 };
 
-/// Of all fields, which are tied alike.
+/// Constraints of all fields, whose nodes have the same ties.
 struct Constraints {
 	FreeDofs dofs;
 	/// Growth of the constrained unknowns in the step, and of those tied to them, zero elsewhere.

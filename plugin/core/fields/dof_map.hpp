@@ -7,16 +7,15 @@
 
 namespace gimpm {
 
-/// What has unknowns at the nodes. The first field of a system is that of the displacements.
+/// Field with unknowns at the nodes. The first field of a system is that of the displacements.
 struct Field {
 	std::string name, unit;
 	int         width = 1; ///< unknowns a node
-	/// How much the unknowns grow where displacements grow by 1 m: of a pressure the modulus of the soil over the
-	/// size of a cell. Where fields meet, in a norm and in the matrix, unknowns are divided by it and residuals
-	/// multiplied.
+	/// Growth of the unknowns where displacements grow by 1 m: for a pressure the modulus of the soil over the cell
+	/// size. In norms and in the matrix of several fields, unknowns are divided by it and residuals multiplied.
 	double scale = 1;
-	/// With which its rows are multiplied where that makes the matrix symmetric: -1 of what pushes the soil apart
-	/// and is filled by what it pushes.
+	/// Factor of its rows that makes the matrix symmetric: -1 for a field that pushes the soil apart and is filled
+	/// by what it pushes.
 	int sign = 1;
 };
 

@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// Of a vector with a block for each field, of so many unknowns a node, each process knows the rows of its nodes, and
-/// then all.
+/// Completes a vector with a block for each field, of so many unknowns a node: each process knows the rows of its
+/// nodes, and then all.
 inline void complete(const OwnedNodes& ownedNodes, const std::vector<int>& widths, Eigen::VectorXd& all)
 {
 	if (ownedNodes.isWhole()) return;

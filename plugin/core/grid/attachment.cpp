@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// How far a position in cell coordinates is outside of a cell along each axis [cells].
+/// Distance of a position in cell coordinates from a cell along each axis, 0 inside [cells].
 template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 {
 	const auto local = (xi - cell.template cast<double>()).array();

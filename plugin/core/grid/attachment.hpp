@@ -36,7 +36,7 @@ template <int Dim> struct Attachment {
 		return i;
 	}
 
-	/// Of the position, from the lowest node on [smallest cells].
+	/// Position from the lowest node on [smallest cells].
 	Vec<Dim> inCell() const
 	{
 		Vec<Dim> local = Vec<Dim>::Zero();

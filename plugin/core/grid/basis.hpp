@@ -28,7 +28,7 @@ inline int centreCell(double x, double h) { return -floorToInt(faceTolerance - x
 struct AxisCells {
 	int lowest, count; ///< count: 1 or 2
 
-	/// Of the domain [x - l, x + l], l <= h/2, measured from the grid's origin in cells of size h.
+	/// Cells that the domain [x - l, x + l] overlaps, l <= h/2, measured from the grid's origin in cells of size h.
 	static AxisCells reached(double x, double l, double h)
 	{
 		const int    face   = floorToInt(x / h + 0.5); // the only one that the domain can cross

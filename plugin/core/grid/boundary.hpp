@@ -29,7 +29,7 @@ template <int Dim> struct ConstrainedBox {
 
 	bool empty() const { return (lower.array() > upper.array()).any(); }
 
-	/// Whether a coordinate of a node, or of one of its images, lies in the box.
+	/// True if a coordinate of a node, or of one of its images, lies in the box.
 	bool covers(int node, int axis) const
 	{
 		if (period[axis] == 0) return lower[axis] <= node && node <= upper[axis];
@@ -47,7 +47,7 @@ template <int Dim> struct ConstrainedBox {
 	bool constrains(const Index<Dim>& node, int axis) const { return fixed[axis] && contains(node); }
 	bool constrains(Key node, int axis) const { return fixed[axis] && contains(node); }
 
-	/// Whether a node may lie in both boxes.
+	/// True if a node may lie in both boxes.
 	bool meets(const ConstrainedBox& other) const;
 };
 
@@ -69,8 +69,8 @@ public:
 	/// The open box that the node is in, the last one given, or null.
 	const ConstrainedBox<Dim>* opening(const Index<Dim>& node) const;
 
-	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
-	/// or in open boxes; not of a face that moves with soil on both sides, or with a cell of its box on one.
+	/// True if all nodes of the lower face of this cell in this direction are constrained in the face's normal
+	/// direction, or in open boxes; not of a face that moves with soil on both sides, or a cell of its box on one.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
 
 	/// Cells that a box which moves holds nodes of, among these.

@@ -49,7 +49,8 @@ template <int Dim> void makePatches(const std::vector<PointOrder<Dim>>& orders, 
 	}
 }
 
-/// Of the axis x of a point: averages over the ring instead of its section, and the functions of the hoop strain.
+/// Basis functions along the axis x of a point: averages over the ring instead of its section, and the functions of the
+/// hoop strain.
 template <int Dim> void fillRing(const Grid<Dim>& grid, double r, double l, double h, Basis basis, const AxisCells& cells, AxisBasis& ring, AxisValues& hoop)
 {
 	const double x = r - grid.origin[0];

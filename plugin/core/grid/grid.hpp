@@ -10,10 +10,10 @@
 
 namespace gimpm {
 
-/// Where a key stands among sorted ones, or would stand.
+/// Position of a key among sorted ones, or that at which it would be.
 inline int position(const std::vector<Key>& sorted, Key key) { return int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()); }
 
-/// Where a key stands among sorted ones; -1: it is not there.
+/// Position of a key among sorted ones; -1: it is not there.
 inline int find(const std::vector<Key>& sorted, Key key)
 {
 	const int index = position(sorted, key);
@@ -31,11 +31,10 @@ template <int Dim> struct Grid {
 	/// cells. 0: it never does. The first ones, from 0 to period - 1, stand for all.
 	Index<Dim> period = Index<Dim>::Zero();
 
-	/// Of bodies of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along
-	/// it.
+	/// Body of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along it.
 	bool axisymmetric = false;
 
-	/// Where cells are smaller and where larger; null: they are equal.
+	/// Regions of smaller and larger cells; null: all cells are equal.
 	std::shared_ptr<const Refinement<Dim>> refinement {};
 
 	/// Lines that part the body, in a grid of equal cells; null: there are none.

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// What a node stands for among the nodes that are not tied.
+/// Master nodes of each node, with their weights; a node that is not tied is its own master.
 class MastersOf {
 public:
 	/// Null: nothing is tied. The ties must outlive it.

@@ -5,8 +5,8 @@
 
 namespace gimpm {
 
-/// Whether points of different materials populate a cell, for each of basis.cells. `material` is in the order of the
-/// cloud.
+/// Flags of cells that points of different materials populate, for each of basis.cells. `material` is in the order of
+/// the cloud.
 template <int Dim> std::vector<char> mixedCells(const CloudBasis<Dim>& basis, const std::vector<int>& material);
 
 } // namespace gimpm

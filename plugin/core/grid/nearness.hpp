@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Of each position 1 if no domain of a layer (-1: of any) is as near along each axis, else 0. No reach may be more
+/// Flags of positions: 1 if no domain of a layer (-1: of any) is as near along each axis, else 0. No reach may be more
 /// than half of the largest cells.
 template <int Dim>
 std::vector<std::int64_t> areFarFromMaterial(

@@ -9,7 +9,7 @@
 
 namespace gimpm {
 
-/// Which of the columns of a cloud there are.
+/// Column policy of a cloud.
 enum class ColumnPolicy {
 	always,   ///< there is a value for each point
 	ifNeeded, ///< the column is empty where none of the points needs it
@@ -95,7 +95,7 @@ template <int Dim> void PointCloud<Dim>::resize(std::size_t n)
 	});
 }
 
-/// Of all columns: the same where points are the same, to the last bit.
+/// Checksum of all columns: the same where points are the same, to the last bit.
 template <int Dim> std::uint64_t checksumOf(const PointCloud<Dim>& cloud)
 {
 	Checksum sum;

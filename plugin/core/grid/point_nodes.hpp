@@ -37,7 +37,7 @@ template <int Dim, class F> void forPointNodes(const CloudBasis<Dim>& basis, F&&
 	}
 }
 
-/// Of values at the nodes, Dim components each, at a point that forPointNodes() calls f for.
+/// Value at a point that forPointNodes() calls f for, of values at the nodes with Dim components each.
 template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value, int count, const Eigen::VectorXd& nodal)
 {
 	Vec<Dim> sum = Vec<Dim>::Zero();

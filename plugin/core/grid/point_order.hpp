@@ -54,7 +54,7 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 	return reached;
 }
 
-/// What the points are sorted by. It is kept small: the basis functions are computed once the order is known.
+/// Data that the points are sorted by. It is kept small: the basis functions are computed once the order is known.
 template <int Dim> struct PointOrder {
 	Key      order; // of the lowest cell
 	unsigned kind;  // span and cells
@@ -75,8 +75,7 @@ private:
 	unsigned __int128 whole() const { return (unsigned __int128)order << 64 | Key(kind) << 32 | unsigned(point); }
 };
 
-/// How far the domain reaches behind walls, as a length of its own axis: the part on the other side of a face than the
-/// centre.
+/// Length of the domain behind walls along its own axis: the part on the other side of a face than the centre.
 template <int Dim> double hiddenLength(const PointOrder<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, const Index<Dim>& lowest, int centre)
 {
 	double length = 0;

@@ -33,7 +33,7 @@ template <int Dim> Refinement<Dim>::Refinement(const std::vector<RefinedBox<Dim>
 	}
 }
 
-/// With the cells around it, as large ones of the next level.
+/// Halves cells with those around them, as large ones of the next level.
 template <int Dim> void Refinement<Dim>::halve(Block block, int level)
 {
 	for (; level <= largest_; ++level) {

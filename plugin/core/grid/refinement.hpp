@@ -29,7 +29,7 @@ public:
 
 	int largest() const { return largest_; } ///< level of the cells that are nowhere halved
 
-	/// Whether a cell is halved; those beyond the leaves are not.
+	/// True if a cell is halved; cells beyond the leaves are not.
 	bool isHalved(const Index<Dim>& cell, int level) const
 	{
 		for (const Block& block : halved_[level])

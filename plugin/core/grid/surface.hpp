@@ -12,8 +12,8 @@ namespace gimpm {
 Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b);
 Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c);
 
-/// Where a segment crosses lines of the grid, as parts of its length, rising; nothing is cut off that is shorter than a
-/// millionth of a cell, or of the segment.
+/// Parts of the length of a segment at which it crosses lines of the grid, rising; nothing is cut off that is shorter
+/// than a millionth of a cell, or of the segment.
 std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid);
 
 /// Circumference of the ring on which a position lies, or one metre where there is no axis of symmetry.
@@ -33,13 +33,14 @@ template <int Dim> struct Surface {
 	std::vector<Vec<Dim>> vertices0; ///< where they were at first [m]
 	std::vector<Piece>    pieces;
 
-	/// Of a piece, outward; `x` are the positions of all vertices.
+	/// Outward normal of a piece; `x` are the positions of all vertices.
 	Vec<Dim> normal(const Piece&, const std::vector<Vec<Dim>>& x) const;
 
-	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.
+	/// True if the surface has no edge: every vertex in the plane and every side of a triangle belongs to two
+	/// pieces.
 	bool isClosed() const;
 
-	/// Whether it cuts the way from a to b.
+	/// True if it cuts the way from a to b.
 	bool isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const;
 
 	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of

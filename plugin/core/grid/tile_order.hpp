@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the
+/// Position of a cell in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the
 /// lowest cell in a tile reach the first nodes beyond it, and no others as long as a tile is at least two cells wide:
 /// between two tiles of a colour lies another. Each level of cells and each layer has tiles of its own, which share no
 /// node with those of others.
@@ -53,7 +53,7 @@ template <int Dim> int colourAlong(int tile, int period)
 	return period != 0 && meetsFirst ? 2 : tile & 1;
 }
 
-/// How many there are.
+/// Number of colours.
 template <int Dim> int coloursOf(const Grid<Dim>& grid) { return grid.isPeriodic() ? (Dim == 2 ? 9 : 27) : 1 << Dim; }
 
 template <int Dim> int colourOf(Key cell, const Grid<Dim>& grid)

@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-/// Of the points and the node of a cell.
+/// Work of so many points, and of the nodes of so many cells, in multiples of the assembly of a cell.
 double workOf(double points, double cells, double pointsOfCell) { return solveOverAssembly * cells + points / pointsOfCell; }
 
 } // namespace

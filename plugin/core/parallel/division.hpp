@@ -16,16 +16,16 @@ namespace gimpm {
 /// is also where several processes hold the same points.
 struct Division {
 	std::shared_ptr<const Processes> processes = Processes::alone();
-	/// Of each process but the first one: where its range begins; they do not fall.
+	/// Begin of the range of each process but the first one; not decreasing.
 	std::vector<Key> first {};
-	/// Of the own points, in the order of the cloud, rising: the same in whatever process they are.
+	/// Identity of each owned point, in the order of the cloud, rising: the same in whatever process it is.
 	std::vector<std::int64_t>     id {};
 	std::vector<std::int64_t>     copied {}; ///< of the copies that follow them in the cloud
 	std::vector<std::vector<int>> lent {};   ///< the own points of which each process has copies, while there are any
 
 	bool isWhole() const { return processes->size() == 1; } ///< all points are here
 
-	/// Of so many points in a cloud, of which the last ones are copies.
+	/// Owned points of a cloud with so many points, of which the last ones are copies.
 	int          ownOf(std::size_t points) const { return int(points - copied.size()); }
 	std::int64_t idOf(int point) const
 	{
@@ -33,13 +33,13 @@ struct Division {
 		return point < own ? id[point] : point < all ? copied[point - own] : point;
 	}
 
-	/// Of a new point, behind the others; points that are not divided are numbered by their positions.
+	/// Adds a new point behind the others; points that are not divided are numbered by their position in the cloud.
 	void append(std::int64_t newId)
 	{
 		if (!isWhole()) id.push_back(newId);
 	}
 
-	/// Who has the node or the cell.
+	/// Process that has the node or the cell.
 	int  processOf(Key key) const { return int(std::upper_bound(first.begin(), first.end(), key) - first.begin()); }
 	bool owns(Key key) const { return processOf(key) == processes->rank(); }
 
@@ -55,7 +55,8 @@ struct Division {
 	/// Behind what there is of the own points that of the copies, in their order. Numbers only.
 	template <class T> void extend(std::vector<T>& ofPoints) const;
 
-	/// Who has a cell, or a node, knows all points around it, and tells its value.
+	/// Completes values at nodes or cells: the process that has one knows all points around it, and sends its
+	/// value.
 	void complete(const std::vector<Key>& sorted, std::vector<double>& values) const;
 	void complete(const std::vector<Key>& sorted, std::vector<char>& values) const;
 
@@ -94,11 +95,11 @@ struct CellLoad {
 	double points;
 };
 
-/// Where the ranges of the processes begin (Division::first) so that their work is about the same: that of a point, and
-/// of the nodes that go with it.
+/// Begins of the ranges of the processes (Division::first) that give each about the same work: that of its points, and
+/// of the nodes that go with them.
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes);
 
-/// By how much the process that has most to do is above the mean of all, as a part of it.
+/// Excess of the most loaded process over the mean of all, as a part of the mean.
 double imbalance(const Processes&, const std::vector<CellLoad>& own);
 
 } // namespace gimpm

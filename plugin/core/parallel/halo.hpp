@@ -65,7 +65,7 @@ public:
 	Halo& operator=(const Halo&) = delete;
 
 private:
-	/// Which of the columns there are: a process without points cannot tell.
+	/// Flags of the columns that exist: a process without points cannot tell.
 	std::vector<char> columnsOfAll() const
 	{
 		std::vector<std::int64_t> isMissing;

@@ -18,10 +18,10 @@ struct OwnedNodes {
 	bool owns(int node) const { return node >= first() && node < last(); }
 	bool isWhole() const { return processes.size() == 1; } ///< all rows are here
 
-	/// As a matrix is told.
+	/// Range of the rows, as pairs of numbers.
 	std::pair<int, int> range() const { return { first(), last() }; }
 
-	/// Of a process that has all rows, however many.
+	/// Share of a process that has all rows, however many.
 	static OwnedNodes whole(int nodes = 0) { return { *Processes::alone(), { 0, nodes } }; }
 
 	/// The rows of this process of a vector over nodes.
@@ -31,7 +31,7 @@ struct OwnedNodes {
 		return nodal.segment(dim * first(), dim * (last() - first()));
 	}
 
-	/// Of a vector over nodes each process knows its own rows, and then all.
+	/// Completes a vector over nodes: each process knows its own rows, and then all.
 	void complete(Eigen::VectorXd& nodal) const { complete(nodal.data(), nodal.size()); }
 	void complete(std::vector<double>& nodal) const { complete(nodal.data(), Eigen::Index(nodal.size())); }
 

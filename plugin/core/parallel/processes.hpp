@@ -16,8 +16,8 @@ struct Message {
 	int           receivedCount;
 };
 
-/// What one of them says to the others. Each function is called by all of them, in the same order; a process that
-/// cannot go on ends all.
+/// Messages among processes. Each function is called by all of them, in the same order; a process that cannot go on
+/// ends all.
 class Processes {
 public:
 	virtual ~Processes() = default;
@@ -37,7 +37,7 @@ public:
 	/// The text of the process `from`.
 	virtual std::string told(const std::string& text, int from) const = 0;
 
-	/// What this process has sent so far [bytes].
+	/// Amount that this process has sent so far [bytes].
 	virtual double sent() const = 0;
 
 	/// This process, and no others.

@@ -33,7 +33,7 @@ inline void addUp(const Processes& all, double* numbers, int count)
 		numbers[i % count] += ofAll[i];
 }
 
-/// Of a vector of which each has a part with this norm.
+/// Norm of a vector of which each process has a part with this norm.
 inline double normOfAll(const Processes& all, double own)
 {
 	if (all.size() == 1) return own;
@@ -41,7 +41,7 @@ inline double normOfAll(const Processes& all, double own)
 	return Eigen::Map<const Eigen::VectorXd>(norms.data(), Eigen::Index(norms.size())).stableNorm();
 }
 
-/// What they have, one process after the other.
+/// Joins what the processes have, one after the other.
 template <class T> std::vector<T> joined(const Processes& all, std::vector<T> own)
 {
 	if (all.size() == 1) return own;
@@ -58,7 +58,7 @@ template <class T> std::vector<T> joined(const Processes& all, std::vector<T> ow
 	return result;
 }
 
-/// What one of them has, sorted; each process gives what it has itself, sorted and once.
+/// Unites what the processes have, sorted; each gives its own values, sorted and once.
 template <class T> std::vector<T> united(const Processes& all, std::vector<T> own)
 {
 	if (all.size() == 1) return own;
@@ -96,14 +96,14 @@ inline int firstOf(const Processes& all, bool isSo)
 	return int(first);
 }
 
-/// Of texts, empty where there is none: that of the first process which has one, in all of them.
+/// Text of the first process that has one, in all of them; empty: there is none.
 inline std::string firstSaid(const Processes& all, const std::string& text)
 {
 	const int first = firstOf(all, !text.empty());
 	return first < all.size() ? all.told(text, first) : "";
 }
 
-/// Whether a number that takes time to be found is the same in all of them; one alone does not look for it.
+/// True if a number that takes time to compute is the same in all processes; a single process does not compute it.
 template <class F> bool haveSame(const Processes& all, F&& number) { return all.size() == 1 || all.haveSame(number()); }
 
 } // namespace gimpm
