@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-/// Of a leaf [m3], in 2D per metre; around an axis of symmetry all around it.
+/// Volume of a leaf [m3], in 2D per metre; around an axis of symmetry all around it.
 template <int Dim> double volumeOf(Key leaf, const Grid<Dim>& grid)
 {
 	const double h = grid.size(Grid<Dim>::level(leaf)), volume = std::pow(h, Dim);
@@ -15,7 +15,7 @@ template <int Dim> double volumeOf(Key leaf, const Grid<Dim>& grid)
 	return volume * 2 * M_PI * (grid.cellSize * (Grid<Dim>::index(leaf)[0] - grid.axisNode()) + h / 2);
 }
 
-/// How much of each populated leaf is filled, by number. Domains of deformed points leave gaps and overlap.
+/// Filled part of each populated leaf, by number. Domains of deformed points leave gaps and overlap.
 template <int Dim> std::vector<double> filling(const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
 	const auto&         leaves = basis.populatedLeaves();

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Which of the ghost faces tie a cell of which less than the threshold is filled to cells that are filled better:
+/// Flags of the ghost faces that tie a cell of which less than the threshold is filled to cells that are filled better:
 /// only these does the linear system need, and on the others the stabilisation would stiffen soil that yields. Each
 /// ill-filled cell is tied to the best filled of the neighbours across its faces (all of them where several are filled
 /// alike, so that mirrored bodies have mirrored ties), in rounds from the well-filled cells outwards. Cells that this

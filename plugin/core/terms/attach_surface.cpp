@@ -7,8 +7,8 @@
 namespace gimpm {
 namespace {
 
-/// As attachmentTolerance, from the nearest domain [cells]: more than half of a domain with two points a cell, by which
-/// a fill may fall short of its region, and less than a whole one.
+/// Tolerance from the nearest domain, where attachmentTolerance is that from the nearest cell [cells]: more than half
+/// of a domain with two points a cell, by which a fill may fall short of its region, and less than a whole one.
 constexpr double domainTolerance = 0.375;
 
 template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string& name, double tolerance)

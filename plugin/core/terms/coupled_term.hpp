@@ -10,8 +10,8 @@
 
 namespace gimpm {
 
-/// Where a term adds its part, one block a field. Of other fields than the displacements the sum of all terms has to
-/// vanish: their sources belong to terms, too.
+/// Sum to which a term adds its part, one block a field. The sum of all terms has to vanish for fields other than the
+/// displacements: their sources belong to terms, too.
 template <int Dim> struct FieldSum {
 	std::vector<Eigen::VectorXd>& force;                 ///< of the displacements [N]
 	std::vector<Eigen::VectorXd>& absoluteContributions; ///< of the parts that make it up, whatever their signs: with them the residual is compared
@@ -20,7 +20,7 @@ template <int Dim> struct FieldSum {
 	Couplings*       couplings = nullptr; ///< all other derivatives; with K
 };
 
-/// How much all fields grow in a step if their rates stay those of the last one, at the nodes that there were then: one
+/// Growth of all fields in a step if their rates stay those of the last one, at the nodes that there were then: one
 /// block a field.
 struct FieldGrowth {
 	std::vector<Key>             nodes; ///< sorted
@@ -47,10 +47,10 @@ public:
 	/// out, where that makes the matrix symmetric.
 	virtual bool makeExact() { return false; }
 
-	/// Where Newton's method may start; none if it knows nothing of a last step.
+	/// Start for Newton's method; none if the term knows nothing of a last step.
 	virtual std::optional<FieldGrowth> expected() const { return std::nullopt; }
 
-	/// What the length of the step has left out, where it is asked for (NewtonSettings::stepTolerance).
+	/// Local errors that the length of the step leaves, where they are asked for (NewtonSettings::stepTolerance).
 	virtual std::vector<LocalError> fieldErrors(const State&) const { return {}; }
 
 	/// The step has been accepted at this state.
@@ -63,7 +63,7 @@ public:
 /// Makes a term for a step, from how things are when it begins; what the context refers to lasts as long as the term.
 template <int Dim> using CoupledTermOfStep = std::function<std::unique_ptr<CoupledTerm<Dim>>(const StepContext<Dim>&, const State&)>;
 
-/// What a field is as a step begins.
+/// Values of a field as a step begins.
 struct FieldStart {
 	Eigen::VectorXd       before;     ///< at all nodes
 	std::map<int, double> prescribed; ///< at the end of the step, by unknown of the field; all others are free

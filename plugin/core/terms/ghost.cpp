@@ -62,7 +62,7 @@ template <int Dim, class F> void forNeighbours(Key cell, int axis, bool isAbove,
 	f(grid.first(isAbove ? cell + step : cell - step), 0);
 }
 
-/// Whether there is no cell beyond a face, on either side of a line that parts the body there.
+/// True if there is no cell beyond a face, on either side of a line that parts the body there.
 template <int Dim> bool isParted(Key cell, int axis, bool isAbove, const std::vector<Key>& populated, const Grid<Dim>& grid)
 {
 	bool isThere = false;

@@ -11,7 +11,7 @@ namespace gimpm {
 /// ratio. The two agree for h = 1 m.
 enum class GhostScaling { meshIndependent, paper };
 
-/// Of populated cells, in a refined grid the populated leaves, those that share a face, or a part of it, with an
+/// Boundary cells: populated cells, in a refined grid populated leaves, that share a face, or a part of it, with an
 /// unpopulated one. A wall is no free surface: what lies behind it does not count.
 template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&, const Grid<Dim>& = {});
 

@@ -72,7 +72,8 @@ public:
 			});
 		}
 	}
-	/// Of a node in the first field and its neighbour in the other one, row by row; null: it is not kept.
+	/// Values of the block of a node in the first field and its neighbour in the other one, row by row; null: it is
+	/// not kept.
 	double* at(int node, int code) const
 	{
 		const int offset = offsets_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];

@@ -33,7 +33,7 @@ struct Refusal {
 	std::string advice; ///< what may help, in sentences
 };
 
-/// Of what is found in a step, and what it may be.
+/// Error of one quantity in a step, and its tolerance.
 struct LocalError {
 	double      size = 0, tolerance = std::numeric_limits<double>::infinity();
 	int         order = 3; ///< it goes with this power of the length of the step
@@ -41,7 +41,7 @@ struct LocalError {
 	const char* unit  = "m";
 };
 
-/// Where a term adds its part. Vectors have Dim components a node.
+/// Sum to which a term adds its part. Vectors have Dim components a node.
 template <int Dim> struct AssembledTerms {
 	Eigen::VectorXd& force;                           ///< [N]
 	NodeMatrix<Dim>* K                     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
@@ -64,7 +64,7 @@ public:
 	/// Adds its force as it was when the step began, whatever moves or grows in the step.
 	virtual void addBefore(Eigen::VectorXd& force) { add(Eigen::VectorXd::Zero(force.size()), { force }); }
 
-	/// Whether what it adds to K is symmetric.
+	/// True if what it adds to K is symmetric.
 	virtual bool isSymmetric() const { return true; }
 
 	/// Why the step cannot be made with it, a clause; empty if it can.
@@ -85,14 +85,14 @@ public:
 	/// Why equilibrium with these displacements cannot be accepted.
 	virtual Refusal refusal(const Eigen::VectorXd&) { return {}; }
 
-	/// What the length of the step has left out of them.
+	/// Local error of the displacements that the length of the step leaves.
 	virtual LocalError localError(const Eigen::VectorXd&) const { return {}; }
 
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }
 
 protected:
-	/// Of all forces that it adds at d [N], for a term whose forces come from outside.
+	/// Norm of all forces that it adds at d [N], for a term whose forces come from outside.
 	double sizeOfForce(const Eigen::VectorXd& d)
 	{
 		Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
@@ -105,7 +105,7 @@ template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
 
 template <int Dim> struct GhostFace;
 
-/// How things are when a step begins.
+/// State of the step as it begins.
 template <int Dim> struct StepContext {
 	const PointCloud<Dim>&             cloud;
 	const CloudBasis<Dim>&             basis;

@@ -30,8 +30,8 @@ std::array<Mat3, 3> normalDerivatives(const Surface<3>::Piece& piece, const std:
 
 constexpr double circle = 2 * M_PI;
 
-/// What each vertex of a piece gets of the force on it, over traction and length (or area): around the axis of symmetry
-/// r = x this is the integral of its linear function times the circumference.
+/// Weights of the vertices of a piece in the force on it, over traction and length (or area): around the axis of
+/// symmetry r = x the integral of the vertex's linear function times the circumference.
 template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& piece, const std::vector<Vec<Dim>>& x, bool isRing)
 {
 	std::array<double, Dim> share;
@@ -44,7 +44,7 @@ template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& pi
 /// The derivative of the share of vertex i of a ring by the radius of its vertex j.
 double weightDerivative(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
 
-/// Whether material is mostly on the outer side, half a cell away.
+/// True if material is mostly on the outer side, half a cell away.
 template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid, int layer)
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {

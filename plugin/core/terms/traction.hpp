@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-/// What acts on a surface at the end of a step.
+/// Traction on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
 	/// At the start of the step, with sides of at most `pieceLimit`.
 	Surface<Dim> surface;
@@ -20,7 +20,7 @@ template <int Dim> struct SurfaceLoad {
 	Vec<Dim> tractionBefore = Vec<Dim>::Zero();
 	/// In that step, with the mean of the forces at its two ends [J].
 	double work = 0;
-	/// Of the body that it is on; layerOfPosition: that which is near.
+	/// Layer of the body that it is on; layerOfPosition: the one that is near.
 	int layer = layerOfPosition;
 	/// Its outer side is still to be compared with where material is.
 	bool        isNew     = false;
@@ -62,8 +62,9 @@ private:
 	bool                         isSymmetric_;
 	std::string                  obstacle_;
 	int                          layer_ = 0; // of the body that it is on
-	/// Of the pieces from beside a line that parts the body to where that is whole: nodes of two layers, which the
-	/// matrix over nodes does not couple. Their part of the derivative is left out, which costs iterations only.
+	/// Flags of pieces that reach from beside a line that parts the body to where that is whole: their nodes are in
+	/// two layers, which the matrix over nodes does not couple. Their part of the Jacobian is left out, which costs
+	/// iterations only.
 	std::vector<char> isAcross_;
 };
 

@@ -17,7 +17,7 @@ template <int Dim> struct Wall {
 	Surface<Dim> surface;
 	/// Directions in which material is held; none: along the normal of each piece.
 	std::array<bool, Dim> fixed {};
-	/// Of the body that it holds.
+	/// Layer of the body that it constrains.
 	int layer = layerOfPosition;
 	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
 	double                penalty = 100;
@@ -44,7 +44,7 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
-	/// Of a piece, with material at its centre.
+	/// Piece with material at its centre.
 	struct ConstrainedPiece {
 		int             piece;
 		Attachment<Dim> at;

@@ -12,7 +12,8 @@ namespace {
 /// Pieces are seen by contact points with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
 
-/// How far a contact point may get beyond a side of the piece that it began the step with, over the size of a cell.
+/// Distance by which a contact point may get beyond a side of the piece that it began the step with, over the cell
+/// size.
 constexpr double beyondPiece = 0.125;
 
 } // namespace
@@ -72,9 +73,9 @@ template <int Dim> auto BodyContact<Dim>::nearestOf(const ContactPoint& contactP
 	return nearest && normal.dot(contactPoint.normal) < facing ? nearest : nullptr;
 }
 
-/// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
-/// would jump to and fro between pieces beside each other, whose normals differ, and what has entered by one side of a
-/// corner and is pushed out by the other one would win energy.
+/// True if the contact point stays before the piece that was nearest as the step began, or before its plane a little
+/// beyond its sides. Otherwise pressures would jump between adjacent pieces, whose normals differ, and a body that
+/// enters by one side of a corner and is pushed out by the other would gain energy.
 template <int Dim> bool BodyContact<Dim>::goesOn(const PairPositions<Dim>& x) const
 {
 	const Facing<Dim> at(x);

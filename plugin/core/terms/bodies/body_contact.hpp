@@ -9,20 +9,20 @@
 
 namespace gimpm {
 
-/// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
+/// Longest side of a piece over the cell size: in space legs of half a cell, as there are many.
 template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
 
-/// By which they may stretch before they are divided: else most of them would be in the first step.
+/// Stretch of sides beyond which pieces are divided: without it most of them would be in the first step.
 constexpr double stretchOfPieces = 1.2;
 
-/// What a contact point may get behind the surface of another body, over the size of a cell.
+/// Deepest penetration of a contact point behind the surface of another body, over the cell size.
 constexpr double deepestInBodies = 0.25;
 
 /// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
 /// between the bodies.
 constexpr double slipSoftnessOfBodies = 4;
 
-/// How far pieces are state for, over the size of a cell.
+/// Distance up to which pieces are searched, over the cell size.
 constexpr double reachOfBodies = 0.5;
 
 /// A body of points that others may meet.
@@ -47,10 +47,10 @@ template <int Dim> struct BodyMeeting {
 	double adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double stiffness           = 10;
 
-	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
+	/// Stress on each piece of the slave's surface at the end of the last accepted step [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
 	std::vector<double>   pressure {};
-	/// Of all of it: force on the slave [N], its moment about the origin [N m], and how many of the contact points
+	/// Resultant force on the slave [N], its moment about the origin [N m], and the number of contact points that
 	/// touch.
 	Vec<Dim> force    = Vec<Dim>::Zero();
 	Vec3     moment   = Vec3::Zero();
@@ -63,8 +63,8 @@ template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
 	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
-	/// With which forces enter the balance of a time step (core/terms/inertia/time_scheme.hpp); in explicit ones
-	/// what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
+	/// Weight of contact forces in the balance of a time step (core/terms/inertia/time_scheme.hpp); in explicit
+	/// ones what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
 	double                  weight     = 1;
 	StepKind                kind       = StepKind::quasiStatic;
 	double                  energy     = 0;  ///< that has come into the system before this time step [J]
@@ -127,7 +127,7 @@ private:
 		PairAction<Dim>     force;
 		PairPositions<Dim>  now;
 	};
-	/// What touches at some displacements, which is asked for in turn by all that a step has to know of it.
+	/// Contact at some displacements, kept for all calls of a step that need it there.
 	struct ContactState {
 		Eigen::VectorXd       d;
 		Positions             now;

@@ -9,12 +9,12 @@
 namespace gimpm {
 namespace {
 
-/// What contact may give in a step of nothing, over all energy that has come in.
+/// Largest spurious energy gain of contact in a step, over all energy that has come in.
 constexpr double mostGiven = 1e-3;
 
 } // namespace
 
-/// Of the contact points as the nodes move them.
+/// Work of contact forces on the contact points as the nodes move them.
 template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
@@ -51,7 +51,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::Vector
 		 "Smaller steps (O.dt) make it less." };
 }
 
-/// How far vertices of the two may have moved towards each other.
+/// Distance by which vertices of the two may have moved towards each other.
 template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Positions& now) const
 {
 	Vec<Dim> mean  = Vec<Dim>::Zero();

@@ -11,14 +11,14 @@
 namespace gimpm {
 namespace {
 
-/// As a step begins, where the foot is found anew, it may be this much deeper.
+/// Penetration admitted as a step begins, where the closest-point projection is made anew.
 constexpr double deepestAtStart = 1.2 * deepestInBodies;
 
 /// From this part of contact points on that slip as a step begins derivatives are exact, and so not symmetric, from its
 /// first iteration on.
 constexpr double manySlip = 0.25;
 
-/// Of contact points on a piece: weights of its vertices, and the part of the size that each stands for.
+/// Integration points on a piece: weights of its vertices, and the part of the size that each stands for.
 template <int Dim> struct Quadrature {
 	static constexpr int                     count = Dim;
 	std::array<std::array<double, Dim>, Dim> weight;
@@ -161,9 +161,8 @@ template <int Dim> void BodyContact<Dim>::findFirst(ContactPoint& contactPoint)
 	        "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
-/// Of the contact points on one piece of a surface, which have its mean pressure, those that would not be pressed with
-/// it by the gaps between them were not as the last step ended: the others have their forces. Else they would have to
-/// open again in each step.
+/// Keeps contact points of one piece apart, which have its mean pressure, if they were not pressed as the last step
+/// ended because of their gaps: the others have their forces. Without this they would have to open again in each step.
 template <int Dim> void BodyContact<Dim>::keepApart(ContactPoint* begin, ContactPoint* end)
 {
 	double normalForce = 0, gap = 0, penalty = 0;

@@ -36,8 +36,9 @@ template <int Dim> struct FacingDerivative {
 	std::array<Rows, Dim>     weightGradient;
 	std::array<Rows, Dim - 1> along;
 
-	/// With n = normal, w = weight, b = weightGradient: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j
-	/// dx_j), dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i =
+	/// Derivatives with n = normal, w = weight, b = weightGradient: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 -
+	/// sum of w_j dx_j), dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the
+	/// piece, db_i =
 	/// - sum of b_j (b_i . dx_j) - n (b_i . dn).
 	FacingDerivative(const Facing<Dim>& at, const PairPositions<Dim>& x)
 	{

@@ -22,16 +22,16 @@ template <int Dim> struct Facing {
 	std::array<Vec<Dim>, Dim - 1> along;
 };
 
-/// Of the contact point from the piece, which has an end.
+/// Squared distance of the contact point from the piece within its sides.
 double squaredDistance(const PairPositions<2>&);
 double squaredDistance(const PairPositions<3>&);
 
-/// Which derivative of the forces is wanted. The symmetric one leaves out what is not: that the limit of friction grows
-/// with the pressure, and small parts by the turn of the piece.
+/// Kind of Jacobian. The symmetric one leaves out what is not: that the limit of friction grows with the pressure, and
+/// small parts by the turn of the piece.
 enum class PairJacobian { none, symmetric, exact };
 
-/// What the contact point and the piece do to each other, whatever grids they move with. The forces have neither
-/// resultant nor moment.
+/// Forces between the contact point and the piece, whatever grids they move with. They have neither resultant nor
+/// moment.
 template <int Dim> struct PairAction {
 	std::array<Vec<Dim>, Dim + 1> force;                              ///< on the contact point and on the vertices [N]
 	double                        normalForce     = 0;                ///< [N]
@@ -49,11 +49,11 @@ template <int Dim> struct PairForce : PairAction<Dim> {
 	Tangent tangent = Tangent::Zero(); ///< of the forces by the contact points [N/m], if it was asked for
 };
 
-/// Of a penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip. `start`: the
-/// contact points as the step begins, when the frictional force on the contact point is `shear`; it turns with the
-/// piece. `closed`: the gap at which the pressure begins. None where it is wider than that by more than the tolerance.
-/// A contact point within it that is not pressed counts in the derivative as one that sticks: a body that only touches
-/// is held.
+/// Force of a penalty on the gap, and of Coulomb's friction with a cap, by return mapping from a penalty on the slip.
+/// `start`: the positions as the step begins, when the tangential force on the contact point is `before`; it turns with
+/// the piece. `closed`: the gap at which the pressure begins. None where the gap is wider than that by more than the
+/// tolerance. A contact point within it that is not pressed counts as sticking in the Jacobian: a body that only
+/// touches is constrained.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>&, const PairPositions<Dim>& start, const Vec<Dim>& before, const PairPositions<Dim>& now, double closed, double tolerance,

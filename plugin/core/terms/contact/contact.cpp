@@ -44,7 +44,7 @@ template <int Dim> struct Inside {
 	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its centre
 	double   gap;                   ///< of the centre, < 0 [m]
 
-	/// Whether it is in front of, or rather behind, a contact point, as in SoilNear.
+	/// True if it is in front of a contact point, or rather behind it, as in SoilNear.
 	bool isAt(const Vec<Dim>& position, const Vec<Dim>& normal, double cellSize) const
 	{
 		const Vec<Dim> away = centre - position, beside = away - away.dot(normal) * normal;
@@ -124,7 +124,7 @@ template <int Dim> auto Contact<Dim>::nearTo(int body) const
 	return std::pair(first, std::find_if(first, near_.end(), [&](const Near& near) { return near.body != body; }));
 }
 
-/// What cannot be computed with a body near the soil.
+/// Checks the overlap of a body with the soil near it, and says what cannot be computed.
 template <int Dim> void Contact<Dim>::checkOverlap(int number)
 {
 	const auto& body         = system_.bodies[number];
@@ -137,7 +137,7 @@ template <int Dim> void Contact<Dim>::checkOverlap(int number)
 		     << " rad from one load step to the next; soil near it can follow 1 rad: decrease angVel, O.dt or iterPeriod";
 		obstacle_ = text.str();
 	}
-	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
+	for (auto near = first; body.isNew && near != last; ++near) // No point is inside of a two-sided surface.
 		if (body.proximity(body.begin, near->centre(), near->side).gap < 0 && !isThin)
 			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre())
 			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
@@ -242,9 +242,9 @@ void Contact<Dim>::addContactPoint(int number, int layer, const SurfacePoint<Dim
 	contactPoints_.push_back(made);
 }
 
-/// What pressed stays pressed, wherever domains are seen now. Soil that slides through the grid follows its domains
-/// slowly, so that it does not creep in; in time steps that would be work of nobody. Soil at rest, along which the
-/// body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
+/// Recalls a record: what pressed stays pressed, wherever domains are seen now. Soil that slides through the grid
+/// follows its domains slowly, so that it does not creep in; in time steps that would be work of nobody. Soil at rest,
+/// along which the body slides, does not creep in, and its domains are a staircase that says nothing of its pressure.
 template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const ContactRecord<Dim>& record, double seen) const
 {
 	const auto& body = system_.bodies[contactPoint.body];
@@ -257,7 +257,7 @@ template <int Dim> void Contact<Dim>::recall(ContactPoint& contactPoint, const C
 	contactPoint.gap += creeps * std::min(0., seen - contactPoint.gap);
 }
 
-/// Of the contact point's own face, which has no end; so a round one keeps soil that slides around it.
+/// Gap and slip by the contact point's own face, which has no end; so a round one keeps soil that slides around it.
 template <int Dim> Approach<Dim> Contact<Dim>::approach(const ContactPoint& contactPoint, const Eigen::VectorXd& d) const
 {
 	const auto&    body = system_.bodies[contactPoint.body];
@@ -326,8 +326,8 @@ template <int Dim> void Contact<Dim>::findLost()
 	}
 }
 
-/// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then
-/// slips or comes off is for the iterations to find.
+/// Constrains where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. The
+/// iterations find whether it then slips or comes off.
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
 	const auto constrains = [&](const ContactPoint& contactPoint) {
@@ -423,7 +423,7 @@ template <int Dim> double Contact<Dim>::energyGain(const Eigen::VectorXd& d)
 	return sum;
 }
 
-/// By the mean slip of what is pressed.
+/// Turns the contact points by the mean slip of those that are pressed.
 template <int Dim> void Contact<Dim>::turnContactPoints(const Eigen::VectorXd& d)
 {
 	std::vector<Mat<Dim>> turns(system_.bodies.size(), Mat<Dim>::Zero());

@@ -30,7 +30,7 @@ template <int Dim> struct ContactRecord {
 /// So a number stays one that doubles have.
 constexpr int contactPointBits = 51, layersOfContactPoints = 4;
 
-/// What the soil does to whoever owns bodies.
+/// Forces of the soil on the owner of bodies.
 struct ContactLoad {
 	using Stiffness = Eigen::Matrix<double, 6, 6>;
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
@@ -95,7 +95,7 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// What free bodies make of the derivative beside what add() adds: their motion follows that of the soil at all
+	/// Adds what free bodies contribute to the Jacobian besides add(): their motion follows that of the soil at all
 	/// contact points that they touch.
 	void markFree(Couplings&) const;
 	void addFree(const Eigen::VectorXd& d, Couplings&);

@@ -12,10 +12,10 @@ template <int Dim> bool mayHaveFinePoints(const RigidShape<Dim>& shape, double c
 	return shape.kind == RigidKind::ball && shape.radius >= cellSize * (2 - 1e-9);
 }
 
-/// Where numbers of such contact points begin: they are told from those of the usual ones by that.
+/// First number of fine contact points, by which they differ from the usual ones.
 constexpr std::int64_t firstFineNumber = std::int64_t(1) << 40;
 
-/// As surfacePointsAt, an eighth of a cell apart.
+/// Surface points as in surfacePointsAt, an eighth of a cell apart.
 template <int Dim>
 std::vector<SurfacePoint<Dim>> finePointsAt(const RigidShape<Dim>&, const Pose<Dim>&, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high);
 

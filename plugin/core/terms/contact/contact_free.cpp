@@ -28,7 +28,7 @@ template <int Dim> struct Balance {
 		for (int i = 0; i < Free::unknowns; ++i)
 			if (body.isGiven[i]) residual[i] = 0;
 	}
-	/// With moments as forces at the distance `size`.
+	/// Scales moments to forces at the distance `size`.
 	typename Free::Vector scaled(const typename Free::Vector& x, double size) const
 	{
 		typename Free::Vector result = x;
@@ -107,7 +107,7 @@ template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>
 
 namespace {
 
-/// How a free body is brought into balance, step by step.
+/// Search for the equilibrium of a free body, step by step.
 template <int Dim> class Search {
 public:
 	using Vector = typename FreeBody<Dim>::Vector;
@@ -168,8 +168,8 @@ private:
 		}
 		return false;
 	}
-	/// Where a contact point slips, friction as a spring that gives it by the slip there is: a body that has been
-	/// moved too far along itself comes back.
+	/// Replaces friction of slipping contact points by a spring with the secant stiffness of the present slip: a
+	/// body that has been moved too far along itself comes back.
 	static std::vector<FreeContactPoint<Dim>> withSecants(std::vector<FreeContactPoint<Dim>> contactPoints)
 	{
 		for (auto& contactPoint : contactPoints) {
@@ -185,7 +185,8 @@ private:
 		}
 		return contactPoints;
 	}
-	/// As in a thick liquid: a body that tips over has to get to the next contact point that holds it.
+	/// Moves the body slowly, like in a thick liquid: one that tips over has to get to the next position that
+	/// constrains it.
 	void creep()
 	{
 		Vector resists = body_.inertia.diagonal();

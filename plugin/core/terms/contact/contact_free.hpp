@@ -14,11 +14,11 @@ Vec<2> turnsArm(const Vec<2>& arm);
 Mat3   turnsArm(const Vec3& arm);
 template <int Dim> using Turn = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
 
-/// Who owns bodies and moves freely in a step. Its unknowns are a displacement and a turn q about its position, for
+/// Owner of bodies that moves freely in a step. Its unknowns are a displacement and a turn q about its position, for
 /// which J q + (forces and moments on the soil) - externalLoad = 0. With a force F that is constant in the step and q =
 /// T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), externalLoad = weight and loads + M v_0 / (a T),
-/// and what the soil gets as its momentum the body loses. Of the highest frequencies (1 - a) / a are left in each step.
-/// In statics J = 0.
+/// and the body loses the momentum that the soil gains. The scheme keeps the part (1 - a) / a of the highest
+/// frequencies in each step. In statics J = 0.
 template <int Dim> struct FreeBody {
 	static constexpr int unknowns = Dim + Turn<Dim>::RowsAtCompileTime;
 	using Vector                  = Eigen::Matrix<double, unknowns, 1>;
@@ -48,9 +48,9 @@ template <int Dim> struct FreeContactPoint {
 	Vec<Dim> normal;
 };
 
-/// What a force at a contact point has to do with the unknowns of its body: with B the displacement of the contact
-/// point by the body's, df = tangent (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df +
-/// byPosition du + byBody dq.
+/// Derivatives of a force at a contact point by the unknowns of its body: with B the displacement of the contact point
+/// by the body's, df = tangent (du - B dq) + turned dq, and for the force on the body d(B^T f) = B^T df + byPosition du
+/// + byBody dq.
 template <int Dim> struct RigidBodyJacobian {
 	using Free = FreeBody<Dim>;
 	Eigen::Matrix<double, Dim, Free::unknowns> moves, turned;

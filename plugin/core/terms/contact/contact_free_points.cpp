@@ -9,7 +9,7 @@
 namespace gimpm {
 namespace {
 
-/// By the body, the forces there; and what the displacement there does to the body's balance.
+/// Derivatives at a node: forces there by the body's motion, and the body's balance by the displacement there.
 template <int Dim> struct AtNode {
 	Eigen::Matrix<double, Dim, FreeBody<Dim>::unknowns> forces;
 	Eigen::Matrix<double, FreeBody<Dim>::unknowns, Dim> moves;
@@ -55,7 +55,7 @@ template <int Dim> FreeContactPoint<Dim> Contact<Dim>::seen(const ContactPoint& 
 	return { arm, touched->force(), touched->tangent, near.at.gap, near.at.normal };
 }
 
-/// With which a turn is compared with a displacement [m].
+/// Length by which a turn is compared with a displacement [m].
 template <int Dim> double Contact<Dim>::sizeOfFree(int number) const
 {
 	double size = grid_.cellSize;

@@ -18,7 +18,7 @@ template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
 	return found;
 }
 
-/// Whether the contact point is in another body, in a joint with it, or on the surface of one that came first and faces
+/// True if the contact point is in another body, in a joint with it, or on the surface of one that came first and faces
 /// alike.
 template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& position, const Vec<Dim>& normal, const std::vector<int>& around) const
 {
@@ -46,7 +46,7 @@ template <int Dim> std::vector<std::pair<int, double>> Contact<Dim>::screensBefo
 	return found;
 }
 
-/// Whether a screen is between the two. At the edge that it shares with the sheet of the contact point, as below a pile
+/// True if a screen is between the two. At the edge that it shares with the sheet of the contact point, as below a pile
 /// that is made of sheets, soil outside is beside the contact points inside. Soil that is a little behind the screen
 /// counts as before it.
 template <int Dim> bool Contact<Dim>::isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& position, const Vec<Dim>& soil) const

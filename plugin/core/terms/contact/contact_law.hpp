@@ -10,12 +10,12 @@ template <int Dim> struct ContactLaw {
 	double normalStiffness, tangentialStiffness; ///< of the penalty [N/m]
 	double frictionCoefficient;                  ///< [-]
 	double cap;                                  ///< of the tangential force [N]
-	/// What presses on contact points around as well as on this one, by which it rubs at least [N]; up to which gap
-	/// [m].
+	/// Normal force of the neighbouring contact points and this one, which friction refers to at least [N]; the gap
+	/// up to which it does [m].
 	double around = 0, reach = 0;
 };
 
-/// Where the contact point is by the body, and how it has moved along it in the step.
+/// Position of the soil relative to the body, and its motion along the body in the step.
 template <int Dim> struct Approach {
 	Proximity<Dim> at;              ///< at the end of the step; the gap less that which counts as none
 	Vec<Dim>       slip;            ///< relative displacement in the step [m]
@@ -24,7 +24,7 @@ template <int Dim> struct Approach {
 };
 
 template <int Dim> struct Touch {
-	/// Of the body; tangential force on the soil [N].
+	/// Normal of the body; tangential force on the soil [N].
 	Vec<Dim> normal = Vec<Dim>::Zero(), tangentialForce = Vec<Dim>::Zero();
 	double   normalForce = 0; ///< [N]
 	bool     slips       = false;

@@ -17,8 +17,8 @@ std::array<double, 3> weightsOnSheet(const std::array<Vec3, 3>& corners, const V
 	return weights;
 }
 
-/// By which turn of the nodes about their centre, each by its distance, forces give a moment; about the axis of a
-/// capsule none does.
+/// Turn of the nodes about their centre by which forces, each proportional to its distance, give a moment; about the
+/// axis of a capsule none does.
 Vec3 turnOf(const std::array<Vec3, 3>& arms, int nodes, const Vec3& moment)
 {
 	if (nodes == 2) return moment / (arms[0].squaredNorm() + arms[1].squaredNorm());

@@ -16,10 +16,10 @@ struct ForceOnNodes {
 	double area, modulus;   ///< what of the surface that acts on [m2]; Young's modulus of the soil [Pa]
 };
 
-/// What each node gets of it: the force by the weights, and the moment about the contact point with these weights by a
-/// couple of forces of the least size; what turns a capsule about its axis, by torques. So forces and moments about any
-/// point add up to that of the force itself. The stiffness is a diagonal that bounds that of all nodes, as the weights
-/// add up to one. `soil`: the contact point at the beginning of the step.
+/// Distributes a contact force to the nodes of a body: the force by the weights, and the moment about the contact point
+/// with these weights by a couple of forces of the least size; what turns a capsule about its axis, by torques. So
+/// forces and moments about any point add up to that of the force itself. The stiffness is a diagonal that bounds that
+/// of all nodes, as the weights add up to one. `soil`: the contact point at the beginning of the step.
 std::array<ContactLoad, 3> loadsOnNodes(const RigidBody<3>&, const Vec3& soil, const ForceOnNodes&);
 
 } // namespace gimpm

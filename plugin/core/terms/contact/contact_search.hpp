@@ -11,13 +11,13 @@ struct NearPoint {
 	int body, point, side;
 };
 
-/// Of each body the points whose domains are within h/2, and as much more as the body moves in the step, from it or
-/// inside of it, and others by as much as soil moves. The time goes with the number of cells that the bodies reach.
+/// Points near each body: domains within h/2, and as much more as the body moves in the step, from it or inside of it,
+/// and others by as much as soil moves. The time grows with the number of cells that the bodies reach.
 template <int Dim>
 std::vector<NearPoint> nearPoints(
         const std::vector<RigidBody<Dim>>&, const PointCloud<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, double motionOfSoil = 0);
 
-/// How far soil may move in a step in which it is looked for near bodies [m].
+/// Largest motion of soil in a step for which it is searched near bodies [m].
 template <int Dim> double reachOfSoil(const Grid<Dim>& grid) { return 0.5 * grid.size(grid.refinement ? grid.refinement->largest() : 0); }
 
 /// From the surface of a body [m].

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Where a line enters a box; infinite if it passes by. A line along a face of it just passes by.
+/// Distance at which a line enters a box; infinite if it passes by. A line along a face of it just passes by.
 template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
 {
 	double first = -infinite, last = infinite;
@@ -85,10 +85,10 @@ double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, 
 	return hit < infinite && hit < near + 2 * beside ? hit : near;
 }
 
-/// How much soil there is is a volume, which does not jump: that in a box in front of the contact point where the soil
-/// begins. A quarter of the box is nothing, three quarters are full, so that over the contact points on both sides of
-/// where soil ends the parts add up to the area that it covers. How much of the box that end leaves along an axis is
-/// told by the centre of the soil in it; what is missing besides are gaps.
+/// Finds the soil in front of a contact point. Its amount is a volume, which does not jump: that in a box in front of
+/// the position where the soil begins. A quarter of the box is nothing, three quarters are full, so that over the
+/// contact points on both sides of where soil ends the parts add up to the area that it covers. How much of the box
+/// that end leaves along an axis is told by the centre of the soil in it; what is missing besides are gaps.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };

@@ -12,10 +12,10 @@ namespace {
 /// Widths of faces and diameters of balls from which on the functions of the cells will do [cells].
 constexpr double wideFace = 4, wideBall = 2;
 
-/// Of a feature that goes so far into the soil from its edge [cells]: less and less from two cells to three.
+/// Weight of a feature that goes so far into the soil from its edge [cells]: less and less from two cells to three.
 double shareOf(double reach) { return std::clamp(3 - reach, 0., 1.); }
 
-/// Whether the cell of a contact point, so many cells from it along some axes, has soil in it.
+/// True if the cell of a contact point, or one so many cells from it along some axes, has soil in it.
 template <int Dim> bool hasSoil(const Attachment<Dim>& attachment, const Index<Dim>& away, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
 	const Vec<Dim> middle = (attachment.cell + away).template cast<double>() + Vec<Dim>::Constant(0.5);
@@ -29,7 +29,7 @@ public:
 	{
 	}
 
-	/// Whether the face of a cell on this side along an axis lies in one.
+	/// True if the face of a cell on this side along an axis lies in one.
 	bool has(const Index<Dim>& cell, int level, int axis, int side) const
 	{
 		for (int corner = 0; corner < 1 << Dim; ++corner) {
@@ -45,7 +45,7 @@ public:
 		return true;
 	}
 
-	/// Along each axis on which side of the cell of a contact point there is one: 1, -1, or 0 for none.
+	/// Sides of the cell of a contact point, along each axis, with one: 1, -1, or 0 for none.
 	Index<Dim> beside(const Attachment<Dim>& attachment) const
 	{
 		Index<Dim> sides = Index<Dim>::Zero();
@@ -62,7 +62,7 @@ private:
 	const int              layer_;
 };
 
-/// Whether soil goes on beside a contact point along an axis of the grid, for two cells or to a plane of symmetry: in
+/// True if soil goes on beside a contact point along an axis of the grid, for two cells or to a plane of symmetry: in
 /// its row of cells or in the one beyond that, as seen along the normal.
 template <int Dim>
 bool goesOn(
@@ -147,9 +147,9 @@ template <int Dim> bool isHalved(const std::vector<FacePoint<Dim>>& positions, c
 	return false;
 }
 
-/// By how much each contact point presses by wider functions, along the axes of the grid: where the whole body is
-/// small, by an edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts
-/// over one anyway.
+/// Weights of the wider functions of each contact point, along the axes of the grid: where the whole body is small, by
+/// an edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts over one
+/// anyway.
 template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<FacePoint<Dim>>& positions, double cellSize, bool isHalved)
 {
 	const auto kind  = body.shape.kind;

@@ -11,8 +11,8 @@ template <int Dim> struct FacePoint {
 	Vec<Dim> position, normal;
 };
 
-/// How far from the edge between faces that have soil before them contact points of these are [m]; infinite if the
-/// faces do not meet in one.
+/// Distances of contact points from the edge between faces that have soil before them [m]; infinite if the faces do not
+/// meet in one.
 template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>&, const std::vector<FacePoint<Dim>>&);
 
 /// The same of the border of a sheet.

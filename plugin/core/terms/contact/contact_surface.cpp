@@ -19,7 +19,8 @@ template <int Dim> using SurfacePoints = std::vector<SurfacePoint<Dim>>;
 /// An even number of parts of a length, so that its centre is between two of them.
 int evenParts(double length, double spacing) { return 2 * std::max(1, int(std::ceil(length / (2 * spacing) - 1e-9))); }
 
-/// Of the part of a surface that reaches from its centre as far as `half` to both sides, along one or two lines.
+/// Corners of the part of a surface that reaches from its centre as far as `half` to both sides, along one or two
+/// lines.
 std::array<Vec<2>, 2> cornersAround(const Vec<2>& x, const Vec<2>& half) { return { x - half, x + half }; }
 std::array<Vec3, 4>   cornersAround(const Vec3& x, const Vec3& half, const Vec3& other)
 {

@@ -15,7 +15,7 @@ template <int Dim> struct SurfacePoint {
 	double       area;             ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
 	Vec<Dim>     aside;            ///< along the face, from the contact point to where it acts on the soil
 
-	/// Of that part, around it; of a triangle the last two are one.
+	/// Corners of that part, around it; of a triangle the last two are one.
 	std::array<Vec<Dim>, 2 * (Dim - 1)> corners;
 };
 

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// By which a change of the motion is a small displacement and turn of the body as it is.
+/// Matrix that makes a change of the motion a small displacement and turn of the body as it is.
 template <int Dim> typename FreeBody<Dim>::Matrix incrementsOf(const typename FreeBody<Dim>::Vector& motion);
 template <> FreeBody<2>::Matrix                   incrementsOf<2>(const FreeBody<2>::Vector& motion);
 template <> FreeBody<3>::Matrix                   incrementsOf<3>(const FreeBody<3>::Vector& motion);

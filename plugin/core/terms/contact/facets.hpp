@@ -17,14 +17,14 @@ template <int Dim> struct Facets {
 	std::vector<Piece>                          pieces;
 	std::vector<int>                            whole; ///< of each piece, the piece of the surface that it is part of
 
-	/// Of the body whose nodes are in a layer.
+	/// Facets of the body whose nodes are in a layer.
 	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 
 	bool      isThere(const Piece&) const; ///< all of its vertices
 	Positions positionsAt(const Eigen::VectorXd& d) const;
 };
 
-/// As attach(), and farther away the contact point in the nearest cell of its neighbours that is populated: what soil
+/// Attaches like attach(), and farther away to the position in the nearest populated cell of its neighbours: what soil
 /// leaves behind of its surface goes with it.
 template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 

@@ -16,7 +16,7 @@ template <int Dim> double inCell(const Attachment<Dim>& attachment, int axis) { 
 
 AlongAxis linear(int cell, double local) { return { cell, 2, { 1 - local, local, 0 } }; }
 
-/// With a share of the splines.
+/// Weights along an axis with this part of the splines.
 AlongAxis weightsAlong(int cell, double local, double share)
 {
 	const bool   isLow = local < 0.5;

@@ -33,7 +33,7 @@ template <int Dim> Proximity<Dim> fromBlock(const RigidShape<Dim>& shape, const 
 	return { distance - shape.radius, normal, Mat<Dim>((moves - normal * normal.transpose()) / distance) };
 }
 
-/// How far a contact point in the plane of a sheet is beside it.
+/// Distance of a position in the plane of a sheet beside its edge.
 double besideOf(const std::array<Vec<2>, 2>& corner, const Vec<2>&, const Vec<2>& own)
 {
 	const Vec<2> along = (corner[1] - corner[0]).normalized();
@@ -72,7 +72,7 @@ template <int Dim> std::array<Vec<Dim>, Dim> cornersAt(const RigidShape<Dim>& sh
 	return corners;
 }
 
-/// How far from the begin of a way to its end something passes the line through a capsule at its closest.
+/// Least gap between a capsule and a position on its way from begin to end.
 template <int Dim> double leastDistance(const std::array<Vec<Dim>, Dim>& corners, const Vec<Dim>& from, const Vec<Dim>& way)
 {
 	constexpr int parts = 16; // of a way that is no longer than a cell

@@ -8,11 +8,11 @@
 
 namespace gimpm {
 
-/// Where a body is, and how it is turned.
+/// Position and rotation of a body.
 template <int Dim> struct Pose {
 	Vec<Dim> position = Vec<Dim>::Zero();
 	Mat<Dim> rotation = Mat<Dim>::Identity();
-	/// By which the corners of a body that deforms have moved besides, in its axes [m].
+	/// Displacements of the corners of a body that deforms, besides its rigid motion, in its axes [m].
 	std::array<Vec<Dim>, Dim> shift = noShift();
 
 	static std::array<Vec<Dim>, Dim> noShift()
@@ -41,11 +41,11 @@ template <int Dim> struct RigidShape {
 	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the contact points on a ball, which may have turned on it
 };
 
-/// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.
+/// Unit normal of a sheet; in the plane that on the right of the way from the first corner to the second.
 Vec<2> normalOf(const std::array<Vec<2>, 2>& corners);
 Vec3   normalOf(const std::array<Vec3, 3>& corners);
 
-/// Of a contact point from a body.
+/// Signed distance of a position from a body.
 template <int Dim> struct Proximity {
 	double   gap              = 0;                                        ///< distance to the surface, < 0 inside [m]
 	Vec<Dim> normal           = Vec<Dim>::Zero();                         ///< unit, out of the body
@@ -67,27 +67,27 @@ template <int Dim> struct RigidBody {
 	double          slack    = 0;  ///< how far behind the surface soil still counts as on that side [m]
 	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
 	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
-	/// Who moves those, and by how much they turn the body about its axis in the step, of a capsule [rad].
+	/// Owners of those nodes, and the turn that they give the body about its axis in the step, for a capsule [rad].
 	std::array<int, 3>    nodeOwners { 0, 0, 0 };
 	std::array<double, 3> twists { 0, 0, 0 };
 
 	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
 	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;
 
-	/// Of a two-sided surface that on which a contact point is.
+	/// Side of a two-sided surface that a position is on.
 	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
 
 	/// Its smallest size; planes and rigid sheets have none [m].
 	double thickness() const;
 
-	/// Of a sheet, from its centre to the surface on either side [m].
+	/// Distance of a sheet's surface from its centre on either side [m].
 	double halfThickness() const { return shape.kind == RigidKind::sheet && nodes > 0 ? shape.radius : 0; }
 
-	/// Whether what presses along a normal, in its own axes, is as narrow as that.
+	/// True if what presses along a normal, in its own axes, is as narrow as that.
 	bool isNarrow(const Vec<Dim>& normal) const;
 
-	/// Whether what went straight from one contact point to another, as seen from the body, came out on another
-	/// side of it, or is about to. Of planes and sheets the sides are known.
+	/// True if something that went straight from one position to another, as seen from the body, came out on
+	/// another side of it, or is about to. The sides of planes and sheets are known.
 	bool isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const;
 
 	/// Lower and upper corner of the box around it; infinite for planes.
@@ -96,10 +96,10 @@ template <int Dim> struct RigidBody {
 	/// An upper bound of how far a contact point on it moves in the step [m].
 	double motion() const;
 
-	/// Where the body's matter that is at x at the end was at the beginning.
+	/// Position at the begin of the step of the body's matter that is at x at the end.
 	Vec<Dim> before(const Vec<Dim>& x) const { return begin.inSpace(end.inBody(x)); }
 
-	/// How far it would move what is at x at the beginning [m].
+	/// Displacement that it would give to what is at x at the begin [m].
 	Vec<Dim> carried(const Vec<Dim>& x) const;
 	Mat<Dim> beforeDerivative() const { return begin.rotation * end.rotation.transpose(); }
 

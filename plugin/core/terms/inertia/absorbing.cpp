@@ -26,7 +26,7 @@ template <int Dim> bool holdsFace(const ConstrainedBox<Dim>& box, const Index<Di
 	return true;
 }
 
-/// Of the material in a cell: its volume, and impedances rho c times that.
+/// Material in a cell: its volume, and impedances rho c times that.
 struct FilledCell {
 	double volume = 0, pressure = 0, shear = 0;
 };
@@ -83,7 +83,8 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 	return found;
 }
 
-/// Where most of it is, and how much there is, of the points that this process has.
+/// Refuses material on both sides: names where most of it is, and how much there is, of the points that this process
+/// has.
 template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vector<int>& beyond, const StepContext<Dim>& step) const
 {
 	std::vector<char>   isAskedFor(step.basis.cells.size(), 0);
@@ -136,7 +137,8 @@ void Absorption<Dim>::addDrag(
 	}
 }
 
-/// Of divided points those that fill the cells at its own nodes are in this process.
+/// Completes the drag by the owned nodes: with divided points this process has those that fill the cells at its own
+/// nodes.
 template <int Dim> void Absorption<Dim>::completeDrag(const StepContext<Dim>& step)
 {
 	Eigen::VectorXd drag = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));

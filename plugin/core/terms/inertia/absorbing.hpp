@@ -7,11 +7,11 @@
 
 namespace gimpm {
 
-/// Where the body goes on beyond what is computed, as if it were linear elastic there: dashpots (Lysmer and Kuhlemeyer
-/// 1969) on the faces of cells whose nodes are all in a box, rho c_p along the normal and rho c_s across it, by the
-/// material beside the face. A wave that comes from beyond with the velocity v adds 2 rho c v (Joyner and Chen 1975).
-/// They do not hold what is at rest: forces by which nodes of the box are out of balance when the boundary first acts,
-/// that is what has held them until then, go on acting.
+/// Boundary beyond which the body goes on as if it were linear elastic: dashpots (Lysmer and Kuhlemeyer 1969) on the
+/// faces of cells whose nodes are all in a box, rho c_p along the normal and rho c_s across it, by the material beside
+/// the face. A wave that comes from beyond with the velocity v adds 2 rho c v (Joyner and Chen 1975). They do not hold
+/// what is at rest: forces by which nodes of the box are out of balance when the boundary first acts, that is what has
+/// held them until then, go on acting.
 template <int Dim> struct AbsorbingBoundary {
 	/// Its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp).
 	ConstrainedBox<Dim> box;

@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// Of the impulse of all contact forces, and of momenta.
+/// Tolerances on the impulse of all contact forces, and on momenta.
 constexpr double impulseTolerance = 1e-9, roundOff = 1e-14;
 
 /// Symmetric derivatives of rough contact leave out what friction gains as pressure does, and so it takes more.

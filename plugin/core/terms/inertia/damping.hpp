@@ -40,8 +40,8 @@ public:
 	virtual void commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) = 0;
 
 protected:
-	/// That the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they are
-	/// right in this process, if not all.
+	/// Work that the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they
+	/// are right in this process, if not all.
 	double workTaken(
 	        const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const OwnedNodes& ownedNodes = OwnedNodes::whole()) const
 	{

@@ -11,7 +11,7 @@ namespace {
 template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const StepContext<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);
-	// What is lumped wholly loses angular momentum: only bodies of which no cell is filled.
+	// Full lumping loses angular momentum: it is for bodies of which no cell is filled.
 	const int  anyWay  = int(step.faces.size());
 	const auto loose   = looseOf(motion, step, anyWay);
 	motion.loosePoints = countOfPoints(loose, step);

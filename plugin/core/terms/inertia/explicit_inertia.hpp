@@ -18,7 +18,7 @@ public:
 	/// Velocities and accelerations are written in commit().
 	ExplicitInertia(Motion<Dim>&, const StepContext<Dim>&);
 
-	/// Whether contact of bodies of points has come to an end.
+	/// True if forces of contact between bodies of points have been found.
 	bool        meets() const { return meets_; }
 	std::string obstacle() const; ///< why the step cannot be made, a clause; empty if it can
 	bool        isSingular() const { return isSingular_; }

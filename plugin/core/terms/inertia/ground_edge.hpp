@@ -7,17 +7,17 @@
 
 namespace gimpm {
 
-/// How the ground beyond moves at the vertices of an edge.
+/// Motion of the ground beyond an edge, at its vertices.
 template <int Dim> struct GroundMotion {
 	std::vector<Vec<Dim>> velocity;     ///< [m/s]
 	std::vector<Vec<Dim>> displacement; ///< since the edge began [m]
 	std::vector<Vec<Dim>> force;        ///< on the body, over that with which it began [N]
 };
 
-/// Where the body goes on beyond what is computed, as if it were linear elastic there, in a free field that moves by
-/// itself: dashpots (Lysmer and Kuhlemeyer 1969) resist velocities, and springs (Deeks and Randolph 1994)
-/// displacements, that differ from those of the free field, whose stress acts on the body. All of it is on the vertices
-/// of a surface, which move with the body: soil does not cross the edge.
+/// Edge beyond which the body goes on as if it were linear elastic, in a free field that moves by itself: dashpots
+/// (Lysmer and Kuhlemeyer 1969) resist velocities, and springs (Deeks and Randolph 1994) displacements, that differ
+/// from those of the free field, whose stress acts on the body. All of it is on the vertices of a surface, which move
+/// with the body: soil does not cross the edge.
 template <int Dim> struct GroundEdge {
 	/// At the start of the step; outward normals point away from the body.
 	Surface<Dim>          surface;
@@ -36,7 +36,7 @@ template <int Dim> struct GroundEdge {
 	std::string           name {};                  ///< for messages
 };
 
-/// What depends on velocities, and what acts whatever the body does.
+/// Forces that depend on velocities, and those that act whatever the body does.
 template <int Dim> class EdgeDrag : public Damping<Dim> {
 public:
 	EdgeDrag(GroundEdge<Dim>&, const StepContext<Dim>&);
@@ -58,7 +58,7 @@ private:
 	std::string                  obstacle_;
 };
 
-/// What depends on displacements.
+/// Forces that depend on displacements.
 template <int Dim> class EdgeSprings : public Term<Dim> {
 public:
 	EdgeSprings(GroundEdge<Dim>&, const StepContext<Dim>&);

@@ -68,7 +68,7 @@ template <int Dim> void Inertia<Dim>::findStart(const StepContext<Dim>& step)
 	}
 }
 
-/// Of all forces as the step begins, also at constrained nodes.
+/// Imbalance of all forces as the step begins, also at constrained nodes.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<Dim>& step) const
 {
 	Eigen::VectorXd all = step.imbalance();
@@ -83,8 +83,8 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<D
 	return all;
 }
 
-/// Where nodes are constrained, also what the velocities would be if they were not: the blow of what holds them has
-/// changed them by the difference.
+/// Finds nodal velocities, and where nodes are constrained also those without the constraint: the blow of the
+/// constraint has changed them by the difference.
 template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 {
 	const double          roundOff = motion_.exactness;
@@ -104,7 +104,7 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 		solve({ { blow_, all, jump_ } });
 }
 
-/// Where velocities tear loose cells they are found again, with more mass there.
+/// Mends velocities that would tear loose cells: they are found again, with more mass there.
 template <int Dim> void Inertia<Dim>::mend(const StepContext<Dim>& step, bool withAcceleration)
 {
 	if (motion_.loosePoints == 0) return;
@@ -155,7 +155,7 @@ template <int Dim> void Inertia<Dim>::solveByFactor(const std::vector<Side>& sid
 	}
 }
 
-/// By a factor, which is kept in this step.
+/// Solves with a factor, which is kept in this step.
 template <int Dim> void Inertia<Dim>::solveAlong(int axis, const Side& side, const Eigen::VectorXd& rest)
 {
 	const int       solver = &side.dofs == &dofs_ ? axis : Dim;
@@ -189,7 +189,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::Vec
 	return (d - T * velocity_) / (beta * T * T) - (1 / (2 * beta) - 1) * acceleration_;
 }
 
-/// Where the forces of the step are looked at.
+/// Velocity at the time at which the scheme takes the forces of the step.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::velocityAt(const Eigen::VectorXd& d) const
 {
 	const auto& scheme = motion_.scheme;
@@ -288,7 +288,7 @@ template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Constra
 			constrain(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 }
 
-/// What one step leaves out of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
+/// Local error of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
 template <int Dim> LocalError Inertia<Dim>::localError(const Eigen::VectorXd& d) const
 {
 	if (motion_.tolerance == Motion<Dim>::infinite) return {};

@@ -28,7 +28,7 @@ public:
 	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// Whether the mass matrix is singular to working precision.
+	/// True if the mass matrix is singular to working precision.
 	bool isSingular() const { return isSingular_; }
 
 	/// Displacements by which the body goes on by itself, with the prescribed ones.
@@ -37,8 +37,8 @@ public:
 	/// Adds what round-off of d leaves of its force, which is more than round-off of strains does [N].
 	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& absoluteContributions) const;
 
-	/// Of forces that are out of balance with the accelerations of the points as the step begins, and of what the
-	/// scheme damps; negative: energy that nobody has put in [J].
+	/// Work of the forces that are out of balance with the accelerations of the points as the step begins, and of
+	/// what the scheme damps; negative: energy that nobody has put in [J].
 	double gridWork(const Eigen::VectorXd& d);
 
 	const Motion<Dim>& motion() const { return motion_; }
@@ -46,7 +46,7 @@ public:
 
 private:
 	using Side = typename NodalMass<Dim>::Side;
-	/// What contact does to the nodes at the end of the step: forces, and what accelerations these give.
+	/// Effect of contact on the nodes at the end of the step: forces, and the accelerations that these give.
 	struct Pushed {
 		Eigen::VectorXd d, force, acceleration;
 	};
@@ -85,7 +85,7 @@ private:
 	bool                                       iterates_; // its condition number is bounded, and conjugate gradients have got there
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
-	// Of the solvers of the motion, in this step.
+	// Flags of the solvers of the motion that have a factor in this step.
 	std::array<bool, Dim + 1> factorised_ {};
 	// At the start, without contact, where the scheme asks for it; zero at constrained nodes.
 	Eigen::VectorXd imbalance_;

@@ -6,7 +6,7 @@
 namespace gimpm {
 namespace {
 
-/// Of the second moments of (1, x) (1, y)[ (1, z)] over the points of a cell, with x from -1 to 1, the least eigenvalue
+/// Least eigenvalue of the second moments of (1, x) (1, y)[ (1, z)] over the points of a cell, with x from -1 to 1,
 /// with which they determine a field there. Two points along each axis that fill the cell have 4^-Dim.
 template <int Dim> constexpr double leastMoment = Dim == 2 ? 1e-3 : 1e-4;
 

@@ -19,11 +19,11 @@ template <int Dim> struct LooseCell {
 /// bounds the condition number (docs/explanation/time-integration.md).
 constexpr double usualLooseShare = 1e-6;
 
-/// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of
-/// `reach` ghost faces connects with a cell whose points do, as at a corner of a body (the condition number grows with
-/// the fourth power of the way): fewer than 2^Dim points by themselves, or any number of them in a row. There nodal
-/// fields exist that no point sees. Masses by point of the cloud [kg]. Where points are divided the cells at the own
-/// nodes are right.
+/// Loose cells: populated cells whose points do not determine a multilinear field, and which no chain of `reach` ghost
+/// faces connects with a cell whose points do, as at a corner of a body (the condition number grows with the fourth
+/// power of the way): fewer than 2^Dim points by themselves, or any number of them in a row. There nodal fields exist
+/// that no point sees. Masses by point of the cloud [kg]. Where points are divided the cells at the own nodes are
+/// right.
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
         const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int reach = Dim, const Division& = {});

@@ -21,13 +21,14 @@ public:
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, double share = usualLooseShare);
 
-	/// Of loose cells alone, that of a body without mass.
+	/// Mass of loose cells alone, that of a body without mass.
 	MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share);
 
 	/// Adds a share of the lumped less consistent mass of loose cells, at those of their nodes that are not -1.
 	void lump(const std::vector<LooseCell<Dim>>&, double share);
 
-	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
+	/// Completes the matrix where points are divided: each process has the rows of its own nodes, and then all
+	/// rows.
 	void complete(const OwnedNodes&, const std::vector<Key>& nodes);
 
 	int nodes() const { return int(neighbour_.size()) / codes; }
@@ -58,7 +59,7 @@ private:
 		value_[slot] += m;
 	}
 
-	/// Of the matrix that has weight(number) for each number.
+	/// Product with the matrix that has weight(number) for each number.
 	template <class F> Eigen::VectorXd product(const Eigen::VectorXd& x, F&& weight) const;
 
 	std::vector<double> value_;

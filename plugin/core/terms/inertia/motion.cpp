@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-/// Of the mass of a cell: (h/4)^2 / 3 for each axis, the extent of points that fill half of it.
+/// Part of the mass of a cell: (h/4)^2 / 3 for each axis, the extent of points that fill half of it.
 constexpr double ofHalfACell = 1. / 12;
 
 } // namespace

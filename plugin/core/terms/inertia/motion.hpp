@@ -18,7 +18,7 @@ template <int Dim> struct MovingBase {
 	Vec<Dim>            acceleration; ///< mean of the step [m/s2]
 };
 
-/// How the points of a cloud move, in its order, and how the next step advances that.
+/// Motion of the points of a cloud, in its order, and the time scheme of the next step.
 template <int Dim> struct Motion {
 	TimeScheme                scheme;
 	double                    ghostMass = 1e-3;     ///< gamma_M over the density
@@ -44,7 +44,7 @@ template <int Dim> struct Motion {
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
-/// How the copies of others' points move, behind the own ones, as long as this lives.
+/// Motion of the copies of others' points, behind the own ones, as long as this lives.
 template <int Dim> class MotionOfCopies {
 public:
 	MotionOfCopies(Motion<Dim>&, const Division&);
@@ -57,7 +57,7 @@ private:
 	const std::size_t own_;
 };
 
-/// Whether no point moves with an acceleration, wherever it is.
+/// True if no point moves with an acceleration, wherever it is.
 template <int Dim> bool begins(const Motion<Dim>&, const Division&);
 
 /// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
@@ -69,8 +69,8 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const
 /// The points in them, of all processes.
 template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const StepContext<Dim>&);
 
-/// What the extent of points in loose cells adds to the inertia of their centres, as the mass of these cells that
-/// resists accelerations, while it is not remembered: of laws that flow.
+/// Extent that the points in loose cells add to the inertia of their centres, as the mass of these cells that resists
+/// accelerations, while it is not remembered: for laws that flow.
 template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const StepContext<Dim>&);
 
 /// Loose cells that nodal velocities would tear within the step, with the nodes that are free along the axis of the

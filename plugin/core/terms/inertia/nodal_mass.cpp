@@ -9,8 +9,8 @@
 namespace gimpm {
 namespace {
 
-/// Of loose cells. What their points do not see has stiffness all the same, where a displacement vanishes and its
-/// gradient does not: with less mass it would not be stable.
+/// Lumped part of the mass of loose cells. Displacements that their points do not see have stiffness all the same,
+/// where a displacement vanishes and its gradient does not: with less mass they would not be stable.
 constexpr double lumpedShare = 1;
 
 template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, const std::vector<double>& masses)
@@ -91,7 +91,7 @@ template <int Dim> Eigen::VectorXd NodalMass<Dim>::operator*(const Eigen::Vector
 	return y;
 }
 
-/// As if the mass were lumped.
+/// Guesses by a lumped mass.
 template <int Dim> bool NodalMass<Dim>::guess(const Side& side, const Eigen::VectorXd* C) const
 {
 	for (Eigen::Index i = 0; i < side.x.size(); ++i)
@@ -99,7 +99,7 @@ template <int Dim> bool NodalMass<Dim>::guess(const Side& side, const Eigen::Vec
 	return side.x.allFinite();
 }
 
-/// What is left of the right side at the free degrees of freedom.
+/// Rest of the right side at the free degrees of freedom.
 template <int Dim> Eigen::VectorXd NodalMass<Dim>::rest(const Side& side, const Eigen::VectorXd* C) const
 {
 	Eigen::VectorXd left = side.right;
@@ -111,8 +111,8 @@ template <int Dim> Eigen::VectorXd NodalMass<Dim>::rest(const Side& side, const 
 	return left;
 }
 
-/// Of two guesses the better one: nothing, or that of a lumped mass, which is right where all moves alike, and wrong
-/// for forces that grip light nodes.
+/// Starts from the better one of two guesses: nothing, or that of a lumped mass, which is right where all moves alike,
+/// and wrong for forces that grip light nodes.
 template <int Dim> typename NodalMass<Dim>::Start NodalMass<Dim>::start(const Side& side, const Eigen::VectorXd* C) const
 {
 	Eigen::VectorXd guessed = side.x;

@@ -28,8 +28,7 @@ public:
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, const OwnedNodes& ownedNodes = OwnedNodes::whole());
-	/// With ties it is P^T M P, where P gives all nodes from those that are not tied: the rows of tied nodes are
-	/// zero.
+	/// Mass P^T M P with ties, where P gives all nodes from their masters: the rows of tied nodes are zero.
 	explicit NodalMass(const MassMatrix<Dim>&, const AffineConstraints& = {});
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node

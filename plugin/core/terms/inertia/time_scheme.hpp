@@ -30,8 +30,8 @@ struct TimeScheme {
 	/// (core/terms/inertia/explicit_inertia.hpp). Stable up to the critical step (core/stepping/critical_step.hpp).
 	static TimeScheme centralDifferences() { return { 0, 0.5, 0, 0, false, true }; }
 
-	/// Of contact forces in the balance, so that they act with their value at the end of the step all through it
-	/// (C. Kane et al. 1999): in the mean of two ends they would give energy to what bounces.
+	/// Weight of contact forces in the balance, so that they act with their value at the end of the step all
+	/// through it (C. Kane et al. 1999): in the mean of two ends they would give energy to what bounces.
 	double weightOfContact() const { return isExplicit ? 1 : (1 - alphaM) / (2 * beta * (1 - alphaF)); }
 
 	bool dependsOnStart() const { return beta != 0.5 || gamma != 1; } ///< on a_0

@@ -44,7 +44,7 @@ template <int Dim> struct BatchResponse {
 	}
 
 private:
-	/// As if the pores were filled with an elastic fluid of Hencky's law.
+	/// Adds pore water: an elastic fluid of Hencky's law.
 	GIMPM_INLINE void addWater(const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials)
 	{
 		const Lanes modulus = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return materials[points.material[p]].waterModulus; });

@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// Of the matter in each cell, in the cell: 0 to 1 along each axis.
+/// Centre of the matter in each cell, in the cell: 0 to 1 along each axis.
 template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
 	std::vector<Vec<Dim>> centre(basis.cells.size(), Vec<Dim>::Zero());

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Of each point, in the order of the basis: the slopes of its basis functions, with the values that the hat functions
+/// Gradients of the basis functions of each point, in the order of the basis, with the values that the hat functions
 /// have at the centre of the matter in a cell instead of those at the point, averaged over the cells that its domain
 /// lies in; 1/2 where all cells are full. So the points of a cell have on average the gradients of their own basis
 /// functions, and a uniform stress stays in balance where cells are partly filled: exactly for boxes of matter, whereas

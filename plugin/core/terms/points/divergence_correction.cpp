@@ -22,7 +22,7 @@ template <int Dim> struct CellCorners {
 		}
 	}
 
-	/// Of a component along axes a and b, at a position of the third.
+	/// Mixed difference of a component along axes a and b, at a position along the third.
 	double mixed(int component, int a, int b, const Vec<Dim>& position) const
 	{
 		double sum = 0;

@@ -20,7 +20,7 @@ template <int Dim> struct DivergenceCorrection {
 	double   ratio  = 1;                ///< of the volume after the step to that before it, by F-bar
 };
 
-/// Of each point in the order of the cloud, for displacements d of all nodes.
+/// Divergence correction of each point in the order of the cloud, for displacements d of all nodes.
 template <int Dim>
 std::vector<DivergenceCorrection<Dim>> divergenceCorrections(
         const PointCloud<Dim>&, const CloudBasis<Dim>&, const StepPoints<Dim>&, const Grid<Dim>&, const Eigen::VectorXd& d);

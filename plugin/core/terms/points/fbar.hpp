@@ -37,7 +37,7 @@ template <int Dim, class T> GIMPM_INLINE T volumeGrowth(const MatrixOf<Dim, T>& 
 	}
 }
 
-/// With what F-bar needs besides.
+/// Chunk with what F-bar needs besides.
 template <int Dim, int Axes = Dim> struct FBarChunk : Chunk<Dim, Axes> {
 	using Chunk<Dim, Axes>::capacity;
 	using Chunk<Dim, Axes>::batches;

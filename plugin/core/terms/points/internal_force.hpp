@@ -7,7 +7,7 @@
 
 namespace gimpm {
 
-/// What an iteration reads of the points, in the order of the basis and contiguous in memory.
+/// Data of the points that an iteration reads, in the order of the basis and contiguous in memory.
 template <int Dim> struct StepPoints {
 	std::vector<SymTensor<Dim>>  leftCauchyGreen; ///< elastic b - 1 at the start of the step
 	std::vector<double>          volume0;

@@ -10,7 +10,7 @@
 
 namespace gimpm {
 
-/// Of the points of a batch whose lanes fail.
+/// First failure of the points of a batch whose lanes fail.
 template <class F> FailureCode firstFailure(const Batch& batch, const std::vector<int>& order, PointFailure::Reason reason, F&& fails)
 {
 	FailureCode first = noFailure;
@@ -211,7 +211,7 @@ template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode 
 	return failure;
 }
 
-// What does not depend on the kind of patch is not inlined into the code for all kinds.
+// Code that does not depend on the kind of patch is not inlined into the code for all kinds.
 #define GIMPM_KERNELS(Name, ...)                                                                                                                               \
 	struct Name##Parts {                                                                                                                                   \
 		template <class C, int Dim>[[GIMPM_FLATTEN gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)             \
@@ -232,7 +232,7 @@ template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode 
 		return gimpm::addPatches<Name##Parts, C>(pass, first, last);                                                                                   \
 	}
 
-/// Of a body in plane strain, around an axis, and in 3D.
+/// Instances for plane strain, for an axis of symmetry, and for 3D.
 #define GIMPM_INSTANTIATE(Name, Chunk)                                                                                                                         \
 	template FailureCode Name::addPatches<Chunk<2, 2>, 2>(const Pass<2>&, int, int);                                                                       \
 	template FailureCode Name::addPatches<Chunk<2, 3>, 2>(const Pass<2>&, int, int);                                                                       \

@@ -19,7 +19,7 @@ template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
 	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< whose sums fit into registers
 
 public:
-	/// Of the points [begin, end).
+	/// Adds the products of the points [begin, end).
 	GIMPM_INLINE void multiply(const ChunkOfPoints& chunk, int begin, int end)
 	{
 		Pairs::template forPairs<Symmetric>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
@@ -120,7 +120,7 @@ private:
 		if (number == 0) return i;
 		return isRing && i == 0 && number == 1 ? Axes - 1 : k;
 	}
-	/// What the flux number j of a point is multiplied with.
+	/// Row that the flux number j of a point is multiplied with.
 	GIMPM_INLINE static const double* rowAt(const ChunkOfPoints& chunk, int p, int j, int i, int k)
 	{
 		if constexpr (ChunkOfPoints::hasCentres)

@@ -9,7 +9,7 @@
 
 namespace gimpm {
 
-/// What a pass over the points reads and writes.
+/// Data that a pass over the points reads and writes.
 template <int Dim> struct Pass {
 	const CloudBasis<Dim>&       basis;
 	const StepPoints<Dim>&       points;

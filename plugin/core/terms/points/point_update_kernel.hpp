@@ -56,7 +56,7 @@ template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
 		f();
 }
 
-/// What the laws of a batch see of the increment.
+/// Increment that the laws of a batch see.
 template <int Dim, int Axes> GIMPM_INLINE const Increment<Dim, Axes>& seenByLaws(const Chunk<Dim, Axes>&, int, const Increment<Dim, Axes>& increment)
 {
 	return increment;

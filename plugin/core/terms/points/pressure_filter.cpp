@@ -123,7 +123,7 @@ template <int Dim> struct Relaxation {
 			}
 	}
 
-	/// By how much the values of points change.
+	/// Changes of the values of points.
 	Values changes(const Values& ofPoints) const
 	{
 		const Values loss = Eigen::Map<const Values>(loses.data(), loses.size()).cwiseProduct(ofPoints - parts.projected(ofPoints));

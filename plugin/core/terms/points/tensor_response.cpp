@@ -14,7 +14,7 @@ struct FluxOfPoint {
 
 	Mat3 flux() const { return stress * inverse.transpose(); }
 
-	/// By F_kl, of component (i, j).
+	/// Derivative of component (i, j) by F_kl.
 	double derivative(const Rates& rates, int i, int j, int k, int l) const
 	{
 		double sum = 0;
@@ -53,8 +53,7 @@ void setModuli(const Pass<Dim>& pass, Chunk<Dim, Axes>& chunk, int b, int lane, 
 		PairModuli<Dim>::template forPairs<false>(set);
 }
 
-/// What changes shapes, and what changes volumes, in the first n axes: see VolumetricSplit, which has it in principal
-/// axes.
+/// Split into changes of shape and of volume, in the first n axes: VolumetricSplit is the same in principal axes.
 struct TensorSplit {
 	double mean = 0, bulk = 0;
 	Mat3   axes = Mat3::Zero(), deviator, meanOfStrain = Mat3::Zero(), stressOfDilation = Mat3::Zero();

@@ -7,7 +7,7 @@
 
 namespace gimpm {
 
-/// What is done with an update.
+/// Function that is called with an update.
 template <int Dim> struct Visitor {
 	const void* f;
 	void (*call)(const void*, int, const PointUpdate<Dim>&);

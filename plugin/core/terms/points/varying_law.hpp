@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Of any law: the variables are those of the law, and then any numbers.
+/// Response of any law: the variables are those of the law, and then any numbers.
 using LanesOfLaws = ResponseWith<Lanes, LawTraits<PrincipalLaws>::mostVariables>;
 
 /// Response of Lanes::count points, of which those that are of another material may get any numbers.

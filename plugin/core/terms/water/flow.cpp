@@ -18,8 +18,8 @@ template <int Dim, class F> void forRanges(const CloudBasis<Dim>& basis, F&& f)
 	}
 }
 
-/// Of the corners of a cell: the integral of products of their functions less the product of their means, over its
-/// volume, and the codes of the offsets between them.
+/// Corners of a cell: the integral of products of their functions less the product of their means, over its volume, and
+/// the codes of the offsets between them.
 template <int Dim> struct Corners {
 	static constexpr int count = 1 << Dim;
 
@@ -228,7 +228,7 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 	});
 }
 
-/// What large pressures of little slope leave, and what is left of volumes.
+/// Round-off that large pressures of small gradient leave, and that of volumes.
 template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& absoluteContributions) const
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
@@ -278,7 +278,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 	moveDrains(d, P);
 }
 
-/// With the mean of the forces as the step begins and as it ends.
+/// Work with the mean of the forces as the step begins and as it ends.
 template <int Dim> double Flow<Dim>::workOn(const State& end) const
 {
 	const std::vector<Eigen::VectorXd> before { Eigen::VectorXd::Zero(end.displacements().size()), end.before(field) };

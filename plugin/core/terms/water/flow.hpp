@@ -34,8 +34,8 @@ public:
 	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const StepContext<Dim>&);
 	~Flow() override;
 
-	/// With the sign of the field. What flow in the pores adds by the displacements has no transpose; it is added
-	/// where the matrix is not symmetric anyway, or where Newton's method asks for it.
+	/// Symmetry with the sign of the field. The Jacobian of pore flow by displacements has no transpose; it is
+	/// added where the matrix is not symmetric anyway, or where Newton's method asks for it.
 	bool                        isSymmetric() const override { return !isExact_; }
 	bool                        makeExact() override { return !std::exchange(isExact_, true); }
 	std::string                 obstacle() const override { return obstacle_; }

@@ -13,7 +13,7 @@ template <int Dim> struct DrainPoint {
 	double   area;
 };
 
-/// Of segments: exact for products of two functions of the grid, wherever they cut the cells.
+/// Quadrature of segments: exact for products of two functions of the grid, wherever they cut the cells.
 std::vector<DrainPoint<2>> quadratureOf(const Surface<2>& surface, const Grid<2>& grid)
 {
 	constexpr double           gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
@@ -33,7 +33,7 @@ std::vector<DrainPoint<2>> quadratureOf(const Surface<2>& surface, const Grid<2>
 	return positions;
 }
 
-/// Of triangles, no larger than a quarter of a cell: their corners, each once.
+/// Quadrature of triangles, no larger than a quarter of a cell: their corners, each once.
 std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>&)
 {
 	std::vector<DrainPoint<3>> positions;

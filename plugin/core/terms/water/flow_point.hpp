@@ -7,7 +7,7 @@
 
 namespace gimpm {
 
-/// Of the nodes of a patch, where they are along each axis, and in the window of its lowest cell, x fastest.
+/// Positions of the nodes of a patch along each axis, and in the window of its lowest cell, x fastest.
 template <int Dim> struct PatchShape {
 	int count = 1;
 	int along[windowNodes<Dim>][Dim] {}, inWindow[windowNodes<Dim>] {};
@@ -28,7 +28,7 @@ template <int Dim> struct PatchShape {
 		return shapes;
 	}
 };
-/// By the span of the patch.
+/// Shapes by the span of the patch.
 template <int Dim> inline constexpr auto patchShapes = PatchShape<Dim>::all();
 
 /// Functions of a point at the nodes of its patch; gradients along the axes as the step begins. The hoop functions give

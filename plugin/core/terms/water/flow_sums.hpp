@@ -72,7 +72,7 @@ template <int Dim, class F> void forCellsOfPatches(const CloudBasis<Dim>& basis,
 	}
 }
 
-/// Where the derivatives go beside those of displacements by displacements.
+/// Blocks of the Jacobian besides those of displacements by displacements.
 template <int Dim> struct FlowBlocks {
 	NearBlocks<Dim> up, pp; ///< first the field of the row: u displacements, p pressures
 	NearBlocks<Dim> pu;     ///< none of a symmetric matrix
@@ -83,7 +83,7 @@ template <int Dim> struct FlowBlocks {
 	}
 };
 
-/// What the points of a lowest cell add to forces and matrix, node by node of its window.
+/// Sums that the points of a lowest cell add to forces and matrix, node by node of its window.
 template <int Dim> class FlowSums {
 	static constexpr int N = windowNodes<Dim>;
 	using Row              = double[(N + 3) / 4 * 4]; // whole registers; what is beyond the nodes is zero
@@ -181,8 +181,8 @@ private:
 			to[b] += factor * row[b];
 	}
 
-	/// With w = grad p and g the present gradients: equation (6.5) of docs/explanation/water.md. Row by row, so
-	/// that columns are side by side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its
+	/// Adds the symmetric part, with w = grad p and g the present gradients: equation (6.5) of docs/explanation/water.md.
+	/// Row by row, so that columns are side by side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its
 	/// opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
@@ -202,7 +202,7 @@ private:
 			if (stored != 0) addTimes(pp_[a], stored * at_.value[a], at_.value);
 		}
 	}
-	/// What the stretch along the circle adds: of xx, of xy and of yx.
+	/// Adds the stretch along the circle: of xx, of xy and of yx.
 	void addRing(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double pushes = point.coupling() * point.volume * s.J * s.pressure;
@@ -214,7 +214,7 @@ private:
 			addTimes(ring_[2][a], -pushes * at_.gradient[1][a], at_.hoop);
 		}
 	}
-	/// What has no transpose, and the other half of what has one.
+	/// Adds blocks that have no transpose, and the other half of those that have one.
 	void addRest(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double V = point.volume * s.J, E = s.density, flow = duration_ * V * E * s.kappa.value, led = flow * (1 + s.kappa.logDerivative);

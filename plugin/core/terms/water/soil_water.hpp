@@ -56,15 +56,15 @@ template <int Dim> struct SoilWater {
 	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
 	std::vector<Drain<Dim>> drains {};
 
-	/// What the length of a step may leave out of displacements [m] and pressures [Pa], as roots of mean squares
-	/// over the volume. Both need the growth in the last step.
+	/// Tolerances on the errors that the length of a step leaves in displacements [m] and pressures [Pa], as roots
+	/// of mean squares over the volume. Both need the growth in the last step.
 	double displacementTolerance = std::numeric_limits<double>::infinity(), pressureTolerance = displacementTolerance;
 
 	std::vector<double>                        pressure {}; ///< of each point [Pa], as the last accepted step has left it
 	std::vector<Eigen::Matrix<double, Dim, 1>> flux {};     ///< volume by area and time [m/s]
 	std::map<std::uint64_t, double>            atNodes {};  ///< pressure by key of the node [Pa]
-	/// Of displacements and pressure in the last accepted step, by key of the node, and its duration [s]; 0: there
-	/// was none, or it is not kept.
+	/// Growth of displacements and pressure in the last accepted step, by key of the node, and its duration [s]; 0:
+	/// there was none, or it is not kept.
 	std::map<std::uint64_t, Eigen::Matrix<double, Dim + 1, 1>> growth {};
 	double                                                     lastDuration = 0;
 	bool                                                       keepsGrowth  = true;  ///< which tells where the next step may begin, too

@@ -99,7 +99,7 @@ template <int Dim> struct WetPoint {
 	        , follows_(domain == WaterDomain::outside)
 	{
 	}
-	/// That resists.
+	/// Resisting force.
 	Vec<Dim> force(int n) const { return weighs * at.value[n] * p.gradient + presses * valueFor(n) * at.dilation(n); }
 
 	Mat<Dim> stiffness(int n, int m) const
@@ -133,8 +133,8 @@ template <int Dim> void addTo(const AssembledTerms<Dim>& sum, const WetPoint<Dim
 	}
 }
 
-/// What a pressure gains from a node of the periodic grid to its image near a position: all of a node's forces come
-/// from one side of the period.
+/// Gain of pressure from a node of the periodic grid to its image near a position: all of a node's forces come from one
+/// side of the period.
 template <int Dim>
 std::array<double, windowNodes<Dim>> gainBeyond(
         const MovedPoint<Dim>& moved, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Vec<Dim>& domain, const Vec<Dim>& fall)

@@ -7,10 +7,10 @@
 
 namespace gimpm {
 
-/// Where the pressure acts: in the pores only, on the surface only, or on both.
+/// Domain of the pressure: in the pores only, on the surface only, or both.
 enum class WaterDomain { everywhere, pores, outside };
 
-/// What acts at the end of a step, and as it begins.
+/// Pressure forces at the end of a step, and as it begins.
 template <int Dim> struct Water {
 	using Pressure             = std::shared_ptr<const WaterPressure<Dim>>;
 	WaterDomain         domain = WaterDomain::everywhere;

@@ -59,7 +59,7 @@ template <int Dim> void addNode(PressureAround<Dim>& sum, double pressure, const
 
 } // namespace
 
-// With the wet part of the box's height 2 l, o: the mean of weight (level - s) over it is weight o^2 / 4 l, and its
+// Mean over a box with the wet part o of its height 2 l: that of weight (level - s) is weight o^2 / 4 l, and its
 // derivative is that of o.
 template <int Dim> std::optional<PressureAround<Dim>> StillWater<Dim>::around(const Vec<Dim>& x, const Vec<Dim>& half) const
 {
@@ -74,7 +74,7 @@ template <int Dim> std::optional<PressureAround<Dim>> StillWater<Dim>::around(co
 	return p;
 }
 
-/// What it has gained from the first period to the one that this node is in.
+/// Gain from the first period to the one that this node is in.
 template <int Dim> double TabulatedWater<Dim>::sincePeriod(const Index<Dim>& node, const Index<Dim>& first) const
 {
 	double gain = 0;

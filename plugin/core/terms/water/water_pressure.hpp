@@ -17,11 +17,11 @@ template <int Dim> class WaterPressure {
 public:
 	virtual ~WaterPressure() = default;
 
-	/// Of the box x -+ half. Averages change continuously, with their derivatives, as the box moves through a water
-	/// table. Nothing: not known there.
+	/// Average over the box x -+ half. Averages change continuously, with their derivatives, as the box moves
+	/// through a water table. Nothing: not known there.
 	virtual std::optional<PressureAround<Dim>> around(const Vec<Dim>& x, const Vec<Dim>& half) const = 0;
 
-	/// What it gains along each axis over one period of the grid [Pa], everywhere the same; zero along others.
+	/// Gain along each axis over one period of the grid [Pa], everywhere the same; zero along others.
 	virtual Vec<Dim> fall() const { return Vec<Dim>::Zero(); }
 };
 
