@@ -88,7 +88,7 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Model<D
 	return false;
 }
 
-/// What is computed on from here must be the same everywhere. The report says so if not.
+/// Requires the same points in all processes, as the computation goes on from them. The report says so if they differ.
 template <int Dim> bool requireSamePoints(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
 {
 	if (!model.division->isWhole() || haveSamePoints(*model.processes, cloud)) return true;

@@ -36,8 +36,8 @@ template <int Dim> Balance WholeBalance<Dim>::of(const Eigen::VectorXd& d, const
 	return b;
 }
 
-/// What is out of balance of another field is what is left of all that enters or leaves at the nodes. The worst unknown
-/// is that of the field which is least in balance.
+/// Adds the residuals of other fields: what is left of all that enters or leaves at the nodes. The worst unknown is
+/// that of the field which is least in balance.
 template <int Dim>
 void WholeBalance<Dim>::addFields(Balance& b, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const
 {
@@ -61,7 +61,7 @@ void WholeBalance<Dim>::addFields(Balance& b, const Eigen::VectorXd& d, const Ei
 	}
 }
 
-/// Of one block, scaled.
+/// Norm of one block, scaled.
 template <int Dim> double WholeBalance<Dim>::normOf(int field, const Eigen::VectorXd& all) const
 {
 	return system_.map[field].scale * Eigen::VectorXd(system_.map.of(field, all)).stableNorm();

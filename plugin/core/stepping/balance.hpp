@@ -13,7 +13,7 @@ struct Balance {
 	double          reference = 0;  ///< |external forces + reactions| [N]
 	int             worst     = -1; ///< unknown
 
-	/// Of one field.
+	/// Balance of one field.
 	struct Part {
 		/// |residual|; forces that it is compared with; what is round-off.
 		double size = 0, reference = 0, vanishing = 0;
@@ -78,7 +78,7 @@ template <int Dim> class WholeBalance {
 public:
 	explicit WholeBalance(const StepSystem<Dim>& system) : system_(system), elastic_(system) { }
 
-	/// Of this sum of the terms at d; their absolute contributions where there are several fields.
+	/// Balance of this sum of the terms at d; their absolute contributions where there are several fields.
 	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& absoluteContributions) const;
 
 	/// The one at the start of the step: forces of this size are its scale to the end.
@@ -97,8 +97,7 @@ public:
 	/// compared with the absolute contributions of all that enters or leaves at the nodes.
 	double relative(const Balance&, bool isSolved) const;
 
-	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual
-	/// [N].
+	/// Residual that round-off of the displacements d and of the strains at the start of the step may leave [N].
 	double roundOff(const Eigen::VectorXd& d) const;
 
 private:

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// By how much the last iteration reduced the residual; 1 if it did not.
+/// Factor by which the last iteration reduced the residual; 1 if it did not.
 double Convergence::reduction() const
 {
 	const auto& r = residuals_;

@@ -5,10 +5,10 @@
 
 namespace gimpm {
 
-/// What the tolerance is multiplied by for the residual around a node over the forces there. Where the whole consists
-/// of one kind of soil its norm shall decide: on the paper's largest slope the 160 steps then take 486 instead of 475
-/// solves (with 1: 507), 286 instead of 284 factorisations; its scenes of h = 1 m, where every iteration is a full one,
-/// take none more.
+/// Factor of the tolerance for the residual around a node over the forces there. Where the whole consists of one kind
+/// of soil its norm shall decide: on the paper's largest slope the 160 steps then take 486 instead of 475 solves (with
+/// 1: 507), 286 instead of 284 factorisations; its scenes of h = 1 m, where every iteration is a full one, take none
+/// more.
 constexpr double localTolerance = 3;
 
 /// Residuals of the whole, and excesses: how far each iterate is from the end of the iteration, which has converged at
@@ -16,7 +16,7 @@ constexpr double localTolerance = 3;
 /// so.
 class Convergence {
 public:
-	/// With reuseFactor, the last iterations may keep the factor of the one before.
+	/// Admits reuse of the last factor in the last iterations, with reuseFactor.
 	Convergence(double tolerance, bool reuseFactor) : tolerance_(tolerance), reuseFactor_(reuseFactor) { }
 
 	void note(double residual, double excess) { residuals_.push_back(residual), excesses_.push_back(excess); }
@@ -25,8 +25,8 @@ public:
 	double                     residual() const { return residuals_.back(); }
 	double                     excess() const { return excesses_.back(); }
 
-	/// With the last factor, the error of K is that of the iteration before: it reduces the residual about as much
-	/// again.
+	/// True if a solve with the last factor suffices: its error of K is that of the iteration before, so it reduces
+	/// the residual about as much again.
 	bool isLastFactorEnough() const { return suffices(excess(), reduction()); }
 
 	/// No further stiffness will be needed after the next solve, of which the solver keeps a factor or not.
@@ -37,11 +37,11 @@ public:
 	/// solve is expected to be the last one.
 	double forcing() const;
 
-	/// Whether small derivatives which are left out may be the cause that the last iteration has gained so little,
+	/// True if small derivatives that are left out may be the cause that the last iteration has gained so little,
 	/// or hardly more than the one before while many would have to follow.
 	bool isSlow() const;
 
-	/// Whether several iterations have not halved what was left.
+	/// True if several iterations have not halved what was left.
 	bool hasStopped() const;
 
 	/// The tolerance at which the best iterate so far would have converged.

@@ -13,17 +13,17 @@ public:
 	        : convergence(system.model.newton.tolerance, system.model.newton.reuseFactor), system_(system), iterate_(iterate), report_(report)
 	{
 	}
-	/// Whether the iterate at d is the last one: it has converged, or the report says why not. `isComplete`: d has
+	/// True if the iterate at d is the last one: it has converged, or the report says why not. `isComplete`: d has
 	/// the prescribed displacements.
 	bool ends(const Eigen::VectorXd& d, int solves, bool isComplete);
 
 	/// |residual| / |external forces + reactions|
 	double relative(int solves) const { return iterate_.whole.relative(iterate_.balance, solves > 0); }
 
-	/// Whether the whole was in balance at the iterate before, and is so at this one.
+	/// True if the whole was in balance at the iterate before, and is so at this one.
 	bool staysInBalance(int solves) const { return isWholeInBalance_ && relative(solves) <= settings().tolerance; }
 
-	/// Whether this iterate is closer to equilibrium than the one before, with a residual of `before`: in the part
+	/// True if this iterate is closer to equilibrium than the one before, with a residual of `before`: in the part
 	/// that is least in balance, when the whole is.
 	bool improves(const Eigen::VectorXd& d, int solves, double before);
 

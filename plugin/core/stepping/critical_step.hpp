@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Of all points, of all processes where they are divided, the largest of what decides about frequencies.
+/// Largest values that decide about frequencies, of all points, of all processes where they are divided.
 struct Stiffest {
 	double pressureWave = 0; ///< squared speed c^2 of pressure waves, stiffening under compression included [m2/s2]
 	double bar          = 0; ///< Young's modulus over density [m2/s2]

@@ -10,7 +10,8 @@
 namespace gimpm {
 namespace {
 
-/// Of what is in play, by which a step of bodies that meet may gain: as contact may give (body_contact_end.cpp).
+/// Part of the energy in play that a step of bodies in contact may gain: the same as for contact itself
+/// (body_contact_end.cpp).
 constexpr double mostOfBodies = 1e-3;
 
 /// Kirchhoff stress over the plane or space of the grid, and around an axis.
@@ -29,7 +30,7 @@ template <int Dim> struct KirchhoffStress {
 	}
 };
 
-/// Of one point, without kinetic energy.
+/// Energy gain of one point, without kinetic energy.
 template <int Dim> EnergyGain gainOf(const PointCloud<Dim>& before, const PointCloud<Dim>& after, std::size_t p, bool isHencky)
 {
 	constexpr double           roundOff = 1e-12; // of strains

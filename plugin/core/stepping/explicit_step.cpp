@@ -19,7 +19,7 @@ template <int Dim> std::string namesOfMeetings(const Motion<Dim>& motion)
 	return names;
 }
 
-/// Whether the step can be made at all.
+/// True if the step can be made at all.
 template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, const Motion<Dim>& motion, StepReport& report)
 {
 	if (!system.map.isAlone())

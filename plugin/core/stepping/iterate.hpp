@@ -25,7 +25,8 @@ public:
 	{
 		const Stopwatch watch(report_.times.assembly);
 		hasStiffness = withStiffness;
-		// Where no stiffness is needed the iteration is about to end.
+		// An evaluation without stiffness is that of an iteration about to end, which needs the
+		// absoluteContributions.
 		hasContributions_ = !withStiffness || !system_.map.isAlone();
 		failure           = system_.evaluate(
 		                  d, force, withStiffness ? &K : nullptr, hasContributions_ ? &absoluteContributions_ : nullptr,
@@ -45,8 +46,8 @@ public:
 		return local_.ratio(balance.residual, absoluteContributions_, d, enough, caused_);
 	}
 
-	/// With the last evaluation prescribed growth has entered, which of several fields alone would cause these
-	/// forces.
+	/// Marks that prescribed growth has entered with the last evaluation; `caused`: forces that it alone causes, of
+	/// several fields.
 	void enter(const Eigen::VectorXd& caused)
 	{
 		caused_ = caused.cwiseAbs();

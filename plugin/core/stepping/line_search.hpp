@@ -17,7 +17,7 @@ struct NewtonStep {
 	double          sizeBefore = 0, size = 0; ///< of the residual [N]
 	double          length = 0;               ///< largest displacement in it [m]
 
-	/// Whether the step may be taken as it is: it may lead a little past the least potential. One that does not
+	/// True if the step may be taken as it is: it may lead a little past the least potential. One that does not
 	/// lead downhill, as it may where flow is not associated, is not judged by its work. One of more than a cell
 	/// must reduce the residual: points that nothing holds fly without work.
 	bool isTaken(double cell) const
@@ -41,7 +41,7 @@ public:
 		bound_  = first.size;
 		isOpen_ = true;
 	}
-	/// Whether the next full step, which ended with this residual, is taken.
+	/// True if the next full step, which ended with this residual, is taken.
 	bool admits(double residual)
 	{
 		bound_ /= 4;
@@ -57,7 +57,7 @@ private:
 	bool   isOpen_ = false, wasVain_ = false;
 };
 
-/// Which part of a step to take.
+/// Part of a step to take.
 struct Shortened {
 	double length = 1; ///< part of the full step
 	int    trials = 0; ///< residuals looked at

@@ -11,7 +11,7 @@ LinearStep<Dim>::LinearStep(const StepSystem<Dim>& system, LinearSolver& solver,
 	if (system.prescribed.any()) prescribed_ = system.prescribed;
 }
 
-/// Of the unknowns that are solved for, the residuals of which are multiplied by the scale.
+/// Calls f for the unknowns that are solved for, the residuals of which are multiplied by the scale.
 template <int Dim> template <class F> void LinearStep<Dim>::forFree(F&& f) const
 {
 	const DofMap& map = system_.map;
@@ -74,7 +74,7 @@ template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& resid
 	return true;
 }
 
-/// As the rows of the matrix have them.
+/// Residual with the signs of the matrix's rows.
 template <int Dim> Eigen::VectorXd LinearStep<Dim>::withSigns(Eigen::VectorXd residual) const
 {
 	const DofMap& map = system_.map;

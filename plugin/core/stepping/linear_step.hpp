@@ -10,7 +10,7 @@ template <int Dim> class LinearStep {
 public:
 	LinearStep(const StepSystem<Dim>&, LinearSolver&, StepReport&);
 
-	/// Whether the next solve moves the constrained nodes to where they are prescribed.
+	/// True if the next solve moves the constrained nodes to their prescribed displacements.
 	bool prescribes() const { return prescribed_.size() > 0; }
 	void markPrescribedApplied() { prescribed_.resize(0); } ///< The iterate contains these displacements.
 
@@ -31,7 +31,7 @@ public:
 	/// Work of forces on the free degrees of freedom, scaled as the residual, on a step.
 	double product(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const;
 
-	/// Of the last solve: of Cholesky or, where K is not symmetric, of LU.
+	/// True if the factor of the last solve is kept: of Cholesky or, where K is not symmetric, of LU.
 	bool keepsFactor() const { return keepsFactor_; }
 	void dropFactor() { keepsFactor_ = false; }
 

@@ -26,7 +26,7 @@ template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& sys
 	report.dofs = system.dofs.count;
 }
 
-/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
+/// True if the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
 template <int Dim> bool isConstrained(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
@@ -52,7 +52,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
 }
 
-/// Of several fields by their rates: what flows goes on where no load grows.
+/// Expected growth of several fields, by their rates: flow goes on where no load grows.
 template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& system)
 {
 	const auto expected = system.expected();
@@ -110,7 +110,7 @@ template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolve
 	return growth;
 }
 
-/// Of the nodes that are tied to none.
+/// Increment of the nodes that are not tied.
 template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system, const Eigen::VectorXd& d, double growth)
 {
 	if (system.basis.affineConstraints.empty()) return { system.basis.nodes, d, growth };

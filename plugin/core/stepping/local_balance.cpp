@@ -84,7 +84,7 @@ double LocalBalance<Dim>::ratioOfDisplacements(
 	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 
-/// Of the displacements, or forces, at the nodes.
+/// Lengths of the displacements, or forces, at the nodes.
 template <int Dim> Eigen::VectorXd LocalBalance<Dim>::lengths(const Eigen::VectorXd& nodal) const
 {
 	return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(nodal.data(), Dim, system_.map.nodes()).colwise().template lpNorm<1>();

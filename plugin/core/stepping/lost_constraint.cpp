@@ -63,15 +63,16 @@ private:
 		Gap gap;
 	};
 
-	/// Of a point from its nearest image before or behind the front.
+	/// Distance of a point from its nearest image before or behind the front.
 	double distance(const Vec<Dim>& x, const Grid<Dim>& grid, double h) const
 	{
 		const int front = box.lower[axis];
 		return sign * (grid.imageNear(x[axis] - grid.origin[axis], front, axis) / h - front * (grid.cellSize / h));
 	}
 
-	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies
-	/// within a quarter of a cell beside it: soil further out hangs on to other nodes too.
+	/// Records the gap of a point. Soil that is not near counts only if it has been in the first cell. Straight
+	/// before a node is what lies within a quarter of a cell beside it: soil further out moves with other nodes
+	/// too.
 	void recordGap(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
 		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // of the cells that the soil is in

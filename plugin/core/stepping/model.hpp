@@ -23,8 +23,8 @@ struct GhostSettings {
 	/// Part of the last step's displacements, in the ratio of the loads, of which jumps of the gradient cost
 	/// nothing.
 	double memory = 0;
-	/// Of a cell, below which it is ill-filled: then it is tied to others, and other faces keep `elsewhere` of
-	/// their stiffness (core/terms/aggregates.hpp). 0: all faces alike.
+	/// Filled part of a cell below which it is ill-filled: then it is tied to others, and other faces keep
+	/// `elsewhere` of their stiffness (core/terms/aggregates.hpp). 0: all faces alike.
 	double threshold = 0;
 	/// Part of the work of a static step (ghost_share.hpp) that it may take up. Where it is more, jumps of the
 	/// gradient that have been reached cost nothing, and the step goes on from there; and so on, until stress in
@@ -42,7 +42,7 @@ struct NewtonSettings {
 	int          lineSearchTrials  = 5;     ///< shorter steps tried when a full one does not reduce the residual; 0: none
 	bool         acceptUnconverged = false; ///< take over the last iterate after maxIterations
 	LinearMethod linearSolver      = LinearMethod::automatic;
-	/// Of the last solve, where the convergence history says that it suffices.
+	/// Reuse of the factor of the last solve, where the convergence history says that it suffices.
 	bool reuseFactor = true;
 	/// Asked once per iteration; may be empty.
 	std::function<bool()> interrupted;
@@ -50,10 +50,10 @@ struct NewtonSettings {
 	double stepTolerance = std::numeric_limits<double>::infinity();
 };
 
-/// What a condition that remembers its distance from the points has to do where a study makes all moduli larger and
-/// leaves the points in their places.
+/// Actions of a condition that remembers its distance from the points, where a study makes all moduli larger and leaves
+/// the points in their positions.
 template <int Dim> struct InPlace {
-	/// What has given way elastically is `scale` of what it was.
+	/// Begins a study: what has given way elastically is `scale` of what it was.
 	std::function<void(const PointCloud<Dim>&, double scale)> begin;
 	/// After a step, the points are back where they were.
 	std::function<void(const PointCloud<Dim>&)> goOn;
@@ -70,14 +70,15 @@ template <int Dim> struct Model {
 	DomainRule domains = DomainRule::tiling;
 	/// Against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells.
 	bool fBar = false;
-	/// With it: what pressures of points in a cell differ by without any effect is taken out as the points move.
+	/// Pressure filter with F-bar: pressures of points in a cell that differ without any effect are removed as the
+	/// points move.
 	bool                  pressureRelaxation = false;
 	std::vector<Material> materials;
-	/// By material, of what acts of point loads and water in a stage of construction, as it does of the density;
-	/// empty: all.
+	/// Part of point loads and water that acts in a stage of construction, by material, as for the density; empty:
+	/// all.
 	std::vector<double> shares {};
-	/// By the number of a body, from -1 on, which is that of those without a name, the layer of its nodes
-	/// (Grid::layer); empty: all are in one.
+	/// Layer of nodes (Grid::layer) of each body, by its number, from -1 on, which is that of those without a name;
+	/// empty: all are in one.
 	std::vector<int> layers {};
 	Boundary<Dim>    boundary; ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds
@@ -90,17 +91,17 @@ template <int Dim> struct Model {
 	/// Besides the displacements.
 	InertiaOfStep<Dim>           inertia {}; ///< of time steps; null: those without
 	std::vector<NodalField<Dim>> fields {};
-	/// Of all fields, and of nodes that are apart.
+	/// Terms of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};
 	/// Makes fields stay as they are at the moment, for a study of it; empty: there are none but the displacements.
 	std::function<void(Model&)> freeze {};
-	/// Of those of the terms that need it.
+	/// Actions of those of the terms that need them.
 	std::vector<InPlace<Dim>> inPlace {};
 	/// The points' resistance is that after half of the displacements.
 	bool atMiddle = false;
-	/// That work on it together.
+	/// Processes that work on it together.
 	std::shared_ptr<const Processes> processes = Processes::alone();
-	/// Of the points among them; whole where all have the same points.
+	/// Division of the points among them; whole where all have the same points.
 	std::shared_ptr<Division> division = std::make_shared<Division>();
 };
 
@@ -128,7 +129,7 @@ template <int Dim> struct Load {
 		return load;
 	}
 
-	/// What the displacements of the step are in proportion to, as far as that can be known.
+	/// Quantity that the displacements of the step are proportional to, as far as that can be known.
 	double growth() const
 	{
 		const double ofLoads = factor.growth != 0 ? factor.growth : ofGravity.value_or(factor).growth;

@@ -45,7 +45,7 @@ private:
 		}
 		next.before = workOn(next.step);
 		next.length = system_.map.displacements(next.step).template lpNorm<Eigen::Infinity>();
-		// Of several fields a matrix costs so much more than a residual that it is first seen whether it is
+		// Matrices of several fields cost so much more than residuals that it is first seen whether one is
 		// needed.
 		iterate_.evaluate(d_ + next.step, system_.map.isAlone() && !convergenceTest_.convergence.isLastStiffness(linear_.keepsFactor()));
 		next.after = workOn(next.step), next.size = iterate_.balance.size;
@@ -81,7 +81,7 @@ private:
 		return true;
 	}
 
-	/// Of the out-of-balance force at the iterate on the free degrees of freedom [J].
+	/// Work of the out-of-balance force at the iterate on the free degrees of freedom [J].
 	double workOn(const Eigen::VectorXd& step) const
 	{
 		if (!std::isfinite(iterate_.balance.size)) return -std::numeric_limits<double>::infinity();

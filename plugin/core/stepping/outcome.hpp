@@ -10,7 +10,7 @@ namespace gimpm {
 bool fail(StepReport&, Failure, const std::string& cause);
 bool fail(StepReport&, const PointFailure&);
 
-/// Whether the system cannot be solved, or one of the terms cannot act at all where it is. The report says so.
+/// True if the system cannot be solved, or one of the terms cannot act at all where it is. The report says so.
 template <int Dim> bool isObstructed(const StepSystem<Dim>&, StepReport&);
 
 /// The tangent as the step begins, of all nodes. False if there is none, and the report says why.
@@ -21,13 +21,13 @@ std::string causeOfTooMany(const StepReport&, double tolerance, bool isWholeInBa
 std::string causeOfDivergence(double correction);
 std::string causeOfStabilised(const StepReport&, double allowed);
 
-/// Where the largest out-of-balance force is.
+/// Reports the node of the largest out-of-balance force.
 template <int Dim> void reportWorst(const StepSystem<Dim>&, const Balance&, StepReport&);
 
-/// Of each of the boundary's boxes, from the sum of the terms [N].
+/// Reactions of each of the boundary's boxes, from the sum of the terms [N].
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>&, const Eigen::VectorXd& force);
 
-/// With which nodes are constrained that no box of the boundary holds, as their points are loose [N].
+/// Force on constrained nodes that no box of the boundary constrains, as their points are loose [N].
 template <int Dim> Vec3 looseForce(const StepSystem<Dim>&, const Eigen::VectorXd& force);
 
 } // namespace gimpm

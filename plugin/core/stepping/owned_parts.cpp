@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-/// What each node takes, in multiples of the mean assembly.
+/// Work of each node, in multiples of the mean assembly.
 template <int Dim> std::vector<double> workOf(const CloudBasis<Dim>& basis)
 {
 	std::vector<double> work(basis.nodes.size(), solveOverAssembly);
@@ -27,7 +27,8 @@ template <class Nodes> bool touches(const OwnedNodes& ownedNodes, const Nodes& n
 	        std::begin(nodes), std::end(nodes), [first = ownedNodes.first(), last = ownedNodes.last()](int node) { return node >= first && node < last; });
 }
 
-/// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
+/// Keeps of each tile, which one thread does, the patches from the first to the last one that touch a node of this
+/// process.
 template <int Dim> void keepTouching(const OwnedNodes& ownedNodes, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& tiles)
 {
 	std::vector<std::pair<int, int>> kept;
@@ -62,7 +63,8 @@ template <int Dim> Colours<Dim> onlyTouching(const OwnedNodes& ownedNodes, const
 
 } // namespace
 
-/// Whoever has the points around a node has its row; those who know all points divide the work.
+/// First nodes of the processes: the one that has the points around a node has its row; those that know all points
+/// divide the work.
 template <int Dim> std::vector<int> OwnedParts<Dim>::startsAmong(const Processes& processes, const CloudBasis<Dim>& basis, const Division& division)
 {
 	if (processes.size() == 1) return { 0, int(basis.nodes.size()) };

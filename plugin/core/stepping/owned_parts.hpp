@@ -25,7 +25,7 @@ public:
 	const Colours<Dim>&                colours() const { return nodes_.isWhole() ? basis_.colours : colours_; }
 	const std::vector<GhostFace<Dim>>& faces() const { return nodes_.isWhole() ? allFaces_ : faces_; }
 
-	/// That of the point with the smallest number, or id where points are divided, wherever it is.
+	/// Failure of the point with the smallest number, or id where points are divided, wherever it is.
 	std::optional<PointFailure> firstOf(const std::optional<PointFailure>&) const;
 
 private:
@@ -45,7 +45,7 @@ template <int Dim> std::vector<std::vector<int>> pointsForOthers(const PointClou
 	return neededPoints(cloud, *model.division, model.grid, model.basis, model.fBar || model.ghost.factor != 0);
 }
 
-/// Whether all processes hold the same points, to the last bit.
+/// True if all processes hold the same points, to the last bit.
 template <int Dim> bool haveSamePoints(const Processes&, const PointCloud<Dim>&);
 
 } // namespace gimpm

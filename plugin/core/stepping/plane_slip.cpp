@@ -59,7 +59,7 @@ public:
 	double begin(int strip) const { return lower_[axis_] + strip * width_; }
 	double height(std::size_t p) const { return -down_.dot(cloud_.position[p]); }
 
-	/// Of the soil in a strip, also where a stretched body has a gap of one strip; beyond the body nothing.
+	/// Top of the soil in a strip, also where a stretched body has a gap of one strip; beyond the body nothing.
 	double topAt(int strip) const
 	{
 		if (!has(strip) || top[strip] != nothing || !has(strip - 1) || !has(strip + 1)) return has(strip) ? top[strip] : nothing;
@@ -165,7 +165,7 @@ private:
 		return block;
 	}
 
-	/// Whether any node that the block can reach, above the plane, is held along or across the face.
+	/// True if any node that the block can reach, above the plane, is constrained along or across the face.
 	bool isConstrained(const Block& block) const
 	{
 		const int    up = Outline<Dim>::axisOf(down_);
@@ -191,7 +191,7 @@ private:
 		return false;
 	}
 
-	/// By the volumes of points above the height of the foot.
+	/// True if the volumes of points above the height of the foot fill the block.
 	bool isFilled(const Block& block) const
 	{
 		const auto isIn = [&](int strip) { return 0 <= (strip - block.first) * block.inwards && (strip - block.first) * block.inwards < block.strips; };

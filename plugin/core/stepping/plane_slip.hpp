@@ -7,7 +7,7 @@
 
 namespace gimpm {
 
-/// Of Mohr and Coulomb's law.
+/// Strength by Mohr and Coulomb's law.
 struct Strength {
 	double cohesion = 0, frictionAngle = 0; ///< [Pa], [rad]
 };

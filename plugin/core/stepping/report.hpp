@@ -10,8 +10,8 @@
 
 namespace gimpm {
 
-/// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive
-/// definite.
+/// Definiteness of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not
+/// positive definite.
 enum class Definiteness { notChecked, positive, indefinite };
 
 struct StepTimes {
@@ -69,7 +69,7 @@ struct StepReport {
 
 	StepTimes times;
 
-	/// What an attempt that came to nothing has cost.
+	/// Adds the effort of an attempt that failed.
 	void takeEffort(const StepReport& attempt)
 	{
 		iterations       = attempt.iterations;

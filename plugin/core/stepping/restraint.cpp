@@ -73,7 +73,7 @@ private:
 	{
 		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
 		int              first = -1;
-		// How far the position of the first node in the patch is from that which its number stands for.
+		// Offset of the first node of the patch from the node that its number stands for.
 		Index<Dim> image;
 		for (int n = 0; n < windowNodes<Dim>; ++n) {
 			if (patch.node[n] < 0) continue;
@@ -118,7 +118,7 @@ template <int Dim> struct Part {
 
 	Vec<Dim> centre() const { return sum / nodes; }
 
-	/// What resists a displacement in this direction at this position.
+	/// Adds a resistance to displacement in this direction at this position.
 	void constrain(const Vec<Dim>& position, const Vec<Dim>& direction)
 	{
 		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();
@@ -134,7 +134,7 @@ template <int Dim> struct Part {
 			if (mode != 1) gram(mode, mode) += 1;
 	}
 
-	/// What moves as its own image so far away does.
+	/// Constrains a part that moves like its own image so far away.
 	void repeat(const Index<Dim>& length)
 	{
 		for (int a = 0; a < Dim; ++a) {
@@ -173,7 +173,7 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 {
 	const SymmetricEigen eigen = symmetricEigen(part.gram);
 	if (eigen.values[0] > 1e-10) return "";
-	// Of the free motions (all modes with a zero eigenvalue), name a translation if there is one.
+	// A translation is named, if there is one among the free motions (all modes with a zero eigenvalue).
 	const auto         free = eigen.vectors.leftCols((eigen.values.array() <= 1e-10).count()).eval();
 	std::ostringstream text;
 	int                axis = -1;
@@ -209,7 +209,8 @@ template <int Dim> Restraint judged(const std::map<int, Part<Dim>>& found, const
 	return result;
 }
 
-/// Of each part. Where points are divided among processes each counts its own ones; all of them know the same parts.
+/// Counts the points of each part. Where points are divided among processes each counts its own ones; all of them know
+/// the same parts.
 template <int Dim> void countPoints(const CloudBasis<Dim>& basis, const Parts<Dim>& parts, const Division& division, std::map<int, Part<Dim>>& found)
 {
 	const int own = division.ownOf(basis.order.size());
@@ -320,7 +321,7 @@ private:
 	void     join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
 	Vec<Dim> position(int node) const { return Grid<Dim>::index(basis_.nodes[node]).template cast<double>(); }
 
-	/// With what holds it, nodes of large groups among that.
+	/// Part with its constraints, nodes of large groups among them.
 	Part<Dim> constrainedPart(const std::set<int>& nodes, const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
 	{
 		Part<Dim> part;

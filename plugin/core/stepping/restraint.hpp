@@ -16,8 +16,8 @@ struct LoosePoints {
 struct Restraint {
 	int         parts = 0;  ///< of the body that share no node
 	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
-	/// Of parts that can, too, but have fewer points than a cell has nodes, beside a part that has more: freeMotion
-	/// leaves them out. None where points are divided.
+	/// Parts that can move, too, but have fewer points than a cell has nodes, beside a part that has more:
+	/// freeMotion leaves them out. None where points are divided.
 	LoosePoints loose {};
 };
 

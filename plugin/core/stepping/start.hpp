@@ -28,7 +28,7 @@ public:
 	}
 
 private:
-	/// Whether the body moves by itself, and to where forces can be told.
+	/// True if the body moves by itself, and to where forces can be told.
 	bool movesOn(Eigen::VectorXd& d)
 	{
 		if (!system_.hasInertia()) return false;

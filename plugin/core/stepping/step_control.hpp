@@ -5,8 +5,8 @@
 
 namespace gimpm {
 
-/// Whether a smaller load may help. It does not against boundaries that hold too little, nor against a tolerance below
-/// round-off, and who has asked for an end shall have it.
+/// True if a smaller load may help. It does not against boundaries that hold too little, nor against a tolerance below
+/// round-off, nor after an interruption by the user.
 bool canBeCut(Failure);
 
 /// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error,
@@ -28,8 +28,8 @@ public:
 	void                    beginAnew();
 	static constexpr double firstPart = 1. / 8;
 
-	/// How the part went that was tried. False: it has failed and is not cut, so the step is given up; the next one
-	/// will be tried as a whole.
+	/// Takes the result of the part that was tried. False: it has failed and is not cut, so the step is given up;
+	/// the next one will be tried as a whole.
 	bool take(const StepReport&);
 
 	double nextPart() const { return part_; } ///< what the next step may begin with

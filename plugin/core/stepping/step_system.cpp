@@ -337,7 +337,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 
 template <int Dim> void StepSystem<Dim>::commit(const Eigen::VectorXd& d) const
 {
-	// Of another field the sum of the terms vanishes but where values are given.
+	// The sum of the terms of another field vanishes except where values are prescribed.
 	Eigen::VectorXd force  = Eigen::VectorXd::Zero(map.size());
 	const auto      others = dofs.number.begin() + map.end(0);
 	if (std::any_of(others, others + (map.size() - map.end(0)), [](int number) { return number < 0; })) evaluate(d, force, nullptr); // before terms go on

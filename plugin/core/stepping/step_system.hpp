@@ -72,23 +72,23 @@ template <int Dim> struct StepSystem {
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* absoluteContributions = nullptr,
 	        Couplings* couplingBlocks = nullptr) const;
 
-	/// Of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
+	/// Forces of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
 	Eigen::VectorXd ghostForce(const Eigen::VectorXd& d) const { return sumOf(1, isStabilised_, d); }
 	Eigen::VectorXd otherForces(const Eigen::VectorXd& d) const;
 
 	/// Forces from outside among the terms at these displacements [N].
 	double fromOutside(const Eigen::VectorXd& d) const;
 
-	/// What round-off of d leaves of forces that strains do not tell.
+	/// Forces that round-off of d leaves and strains do not tell.
 	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
 
 	/// The sums of the points around nodes, which each process knows of the nodes around which it has all points.
 	void complete(Eigen::VectorXd& nodal) const { owned_->knownNodes().complete(nodal); }
 
-	/// Of forces at all unknowns each process knows the rows that it assembles, and then all.
+	/// Completes forces at all unknowns: each process knows the rows that it assembles, and then all.
 	void completeForces(Eigen::VectorXd& all) const { gimpm::complete(ownedNodes(), map, all); }
 
-	/// Whether this process is the one that counts the points of the patch, of those that have them.
+	/// True if this process is the one that counts the points of the patch, of those that have them.
 	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }
 
 	bool hasInertia() const { return inertia != nullptr; }
@@ -101,7 +101,7 @@ template <int Dim> struct StepSystem {
 	/// The step has been accepted.
 	void commit(const Eigen::VectorXd& d) const;
 
-	/// How things are as the step begins; the cloud has to be as it was then.
+	/// State of the step as it begins; the cloud has to be as it was then.
 	StepContext<Dim> context() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;

@@ -102,7 +102,7 @@ template <int Dim> Model<Dim> studied(const Model<Dim>& model)
 	return quiet;
 }
 
-/// What has come out, from the points at the end.
+/// Scales the result back, from the points at the end.
 template <int Dim> void scaleBack(WeakBody<Dim>& body, PointCloud<Dim>& end, const PointCloud<Dim>& before, double scale)
 {
 	scaleStrains(end, scale);

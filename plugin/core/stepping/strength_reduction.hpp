@@ -20,8 +20,8 @@ template <int Dim> struct WeakBody {
 /// Stresses stay as they are, and so does the load that they can carry; what comes out is scaled back, so that
 /// displacements are those of the theory of small displacements.
 inline constexpr double smallStrain = 1e-7;
-/// Of the ghost stabilisation that is left: as it is, it holds what flows, in a slip one cell thick by some percent of
-/// the strength.
+/// Part of the ghost stabilisation that is left: unreduced, it holds what flows, in a slip one cell thick by some
+/// percent of the strength.
 inline constexpr double ghostShare = 1e-2;
 /// Displacements that count as flow, over the largest elastic strain times the smallest extent of the body. Of a
 /// vertical cut that is H / 70, where elasticity gives H / 300; left to itself a body that flows would find another

@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-/// Of its window.
+/// Flags of all cells of the window of a patch.
 template <int Dim> int allCells(const Patch<Dim>& patch)
 {
 	int cells = 0;
@@ -86,7 +86,7 @@ private:
 	int front; // number of nodes that are not behind walls
 };
 
-/// Whose the force on a node behind a wall is: the number of a box, those of the open ones following; -1: nobody's.
+/// Box that takes the force on a node behind a wall: its number, those of the open ones following; -1: none.
 template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int axis, const Boundary<Dim>& boundary)
 {
 	const auto* box = boundary.constrainingBox(node.nearest, axis);
@@ -101,7 +101,7 @@ template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<D
 {
 	const auto&     boundary = system.model.boundary;
 	const Division& division = *system.model.division;
-	// That of an axis may have been taken off.
+	// The box of an axis of symmetry may be missing among the reactions.
 	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size();
 	report.openReactions.resize(boundary.open().size(), Vec3::Zero());
 	std::vector<Vec3> sums(boxes + boundary.open().size(), Vec3::Zero());

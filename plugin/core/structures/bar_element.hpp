@@ -7,13 +7,14 @@
 
 namespace gimpm {
 
-/// What a bar is made of.
+/// Section of a bar.
 struct BarSection {
 	double stiffness   = 0;                                       ///< force over logarithmic strain [N]
 	double strength    = std::numeric_limits<double>::infinity(); ///< force at which it yields [N]
 	bool   tensionOnly = true;                                    ///< slack where it would be compressed
 
-	/// Of a strain without yielding in this step: energy per length, force conjugate to the strain and its slope.
+	/// Energy per length of a strain without yielding in this step, the force conjugate to the strain and its
+	/// tangent.
 	Energy<1> at(double strain) const
 	{
 		Energy<1> energy;
@@ -30,7 +31,7 @@ struct BarSection {
 		return energy;
 	}
 
-	/// What is left of a strain once the bar has yielded: of a slack bar all of it, so that it is stretched again
+	/// Elastic part of a strain once the bar has yielded: of a slack bar all of it, so that it is stretched again
 	/// where it was.
 	double elastic(double strain) const
 	{

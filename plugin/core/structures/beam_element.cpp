@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-/// Whether moments with these bounds active are the ones nearest to the elastic ones, in the energy of the turns: those
+/// True if moments with these bounds active are the ones nearest to the elastic ones, in the energy of the turns: those
 /// within their bounds do not yield, those at a bound yield in its direction.
 bool areAdmissible(const Vec<2>& moment, const Vec<2>& yielded, const std::array<int, 2>& atBound, const Vec<2>& strength, const Vec<2>& scale)
 {
@@ -64,7 +64,7 @@ BeamShape::BeamShape(const BeamPiece& piece, const Eigen::Matrix<double, 6, 1>& 
 	length              = now.norm();
 	direction           = now / length;
 	elongation          = piece.elongation + apart.dot(2 * piece.along + apart) / (length + before);
-	// Of the chord, counterclockwise.
+	// Turn of the chord, counterclockwise.
 	const double turn = std::atan2(piece.along[0] * apart[1] - piece.along[1] * apart[0], piece.along.dot(now));
 	turns             = piece.turns + Vec<2>(u[2] - turn, u[5] - turn);
 }

@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-/// What a beam is made of, per metre of thickness; of a shell of revolution, per metre of its parallels.
+/// Section of a beam, per metre of thickness; of a shell of revolution, per metre of its parallels.
 struct BeamSection {
 	double axialStiffness   = 0; ///< [N]
 	double bendingStiffness = 0; ///< [N m2]
@@ -33,7 +33,7 @@ struct EndMoments {
 };
 EndMoments endMoments(const BeamPiece&, const BeamSection&, const Vec<2>& turns);
 
-/// How a piece is deformed after its ends have moved and turned by u = (u1, turn1, u2, turn2).
+/// Deformation of a piece after its ends have moved and turned by u = (u1, turn1, u2, turn2).
 struct BeamShape {
 	Vec<2> direction, turns;
 	double length, elongation;
@@ -41,8 +41,8 @@ struct BeamShape {
 	BeamShape(const BeamPiece&, const Eigen::Matrix<double, 6, 1>& u);
 };
 
-/// Of these coordinates. With c, s the direction of the chord of length l, r = (-c, -s, 0, c, s, 0) and
-/// z = (s, -c, 0, -s, c, 0): dl = r.du, and the chord turns by z.du / l (Crisfield 1991, section 7.3).
+/// Energy of these coordinates. With c, s the direction of the chord of length l, r = (-c, -s, 0, c, s, 0) and z = (s,
+/// -c, 0, -s, c, 0): dl = r.du, and the chord turns by z.du / l (Crisfield 1991, section 7.3).
 Energy<6> energyOf(const BeamPiece&, const BeamSection&, const Eigen::Matrix<double, 6, 1>& u);
 
 } // namespace gimpm

@@ -5,10 +5,10 @@
 namespace gimpm {
 namespace {
 
-/// How far the centres of points that may fill the cell beyond a position are from it [cells].
+/// Largest distance of the centres of points that may fill the cell beyond a position from it [cells].
 constexpr double reachOfPoints = 2;
 
-/// How much of an interval around a centre lies in another one.
+/// Length of an interval around a centre that lies in another one.
 double overlap(double middle, double half, double low, double high) { return std::max(0., std::min(middle + half, high) - std::max(middle - half, low)); }
 
 } // namespace

@@ -11,13 +11,13 @@ class EdgeOfSoil {
 public:
 	EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const PointCloud<2>&);
 
-	/// How far along n from a position on the line the points of a layer begin that fill the cell beyond, within
-	/// half a cell: what lies before its centre reaches as far as it would if it were as wide as what lies behind.
-	/// Points are on the side that their centres are on, so that a beam may go through the domains of some.
+	/// Distance along n from a position on the line at which the points of a layer begin that fill the cell beyond,
+	/// within half a cell: what lies before its centre reaches as far as it would if it were as wide as what lies
+	/// behind. Points are on the side that their centres are on, so that a beam may go through the domains of some.
 	double from(const Vec<2>& position, const Vec<2>& n, int layer) const;
 
 private:
-	/// Of a layer, within the reach of a position along each axis, in ascending order.
+	/// Points of a layer, within the reach of a position along each axis, in ascending order.
 	std::vector<int> around(const Vec<2>& position, int layer) const;
 
 	const PointCloud<2>& cloud_;

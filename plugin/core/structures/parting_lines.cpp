@@ -39,7 +39,7 @@ PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 	return line;
 }
 
-/// Whether there is soil on both sides of any vertex.
+/// True if there is soil on both sides of any vertex.
 bool isBetween(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	std::vector<Vec<2>> positions;
@@ -54,7 +54,7 @@ bool isBetween(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid
 	return false;
 }
 
-/// Whether a piece of a line goes through the square around a position.
+/// True if a piece of a line goes through the square around a position.
 bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double half)
 {
 	double       begin = 0, end = 1;
@@ -140,7 +140,7 @@ public:
 	}
 
 private:
-	/// As far as domains reach: one cell and half of one.
+	/// True if own cells are as near as domains reach: one cell and half of one.
 	bool isNearOwn(const Vec<2>& position, int layer) const
 	{
 		const Vec<2>   x   = (position - origin_) / cellSize_;

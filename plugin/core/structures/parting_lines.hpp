@@ -13,11 +13,11 @@ namespace gimpm {
 /// that is nearest to it.
 void partSoil(const std::vector<Beam*>&, PointCloud<2>&, Grid<2>&);
 
-/// Which beams have soil on both of their sides; no more, where none may part it.
+/// Finds the beams that have soil on both of their sides; no more, where none may part it.
 void lookBetween(const std::vector<Beam*>&, const PointCloud<2>&, const Grid<2>&);
 
-/// Of positions within a cell of a beam that parts the soil, but not beyond its ends: the beam's layer to its right,
-/// less than 0 to its left; else 0. A point that changes the sign in a step has gone through the beam.
+/// Sides of positions within a cell of a beam that parts the soil, but not beyond its ends: the beam's layer to its
+/// right, less than 0 to its left; else 0. A point that changes the sign in a step has gone through the beam.
 std::vector<int> sidesOf(const std::vector<Beam*>&, const std::vector<Vec<2>>& positions, double cellSize);
 
 } // namespace gimpm

@@ -7,7 +7,7 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Of the six coordinates, with its derivatives.
+/// Function of the six coordinates, with its derivatives.
 using Quantity = Energy<6>;
 
 Quantity operator+(Quantity a, const Quantity& b)
@@ -103,8 +103,8 @@ Energy<6> energyOf(const ShellPiece& piece, const BeamSection& section, const Ve
 	return sum;
 }
 
-/// Of the meridian by the forces on the ends, which are in equilibrium; on the axis, where these are none, by the
-/// curvatures.
+/// Forces of the meridian by the forces on the ends, which are in equilibrium; on the axis, where these are none, by
+/// the curvatures.
 ShellForces forcesIn(const ShellPiece& piece, const BeamSection& section, const Vec6& u)
 {
 	const Shape  shape(piece, u);

@@ -21,7 +21,7 @@ struct ShellPiece {
 /// the section without stress. The energy is that of the whole ring, of (u1, turn1, u2, turn2).
 Energy<6> energyOf(const ShellPiece&, const BeamSection&, const Eigen::Matrix<double, 6, 1>& u);
 
-/// By length of the section, in the centre of the piece or at its two ends.
+/// Forces by length of the section, in the centre of the piece or at its two ends.
 struct ShellForces {
 	double axial, shear, hoop; ///< [N/m]; shear as the slope of the moment of a beam
 	Vec<2> moments;            ///< of the meridian on the ends, counterclockwise [N m/m]

@@ -34,7 +34,7 @@ template <int Dim> struct Reinforcement {
 	Head        head          = Head::bonded;
 	int         joint         = -1;    ///< vertex of the beam that the head is joined to
 	bool        hasFreeLength = false; ///< the first piece has no bond between its ends
-	/// Of the bond, per length of the bar.
+	/// Bond, per length of the bar.
 	double bondStiffness = inf; ///< force over slip [N/m2]; infinite: there is no slip
 	double bond          = inf; ///< strength without normal stress [N/m]
 	double friction      = 0;   ///< and for each Pa of normal stress on the bar: perimeter times tan(delta) [m]
@@ -43,7 +43,7 @@ template <int Dim> struct Reinforcement {
 	double                pullBefore = 0; ///< the same as the step begins
 	std::optional<double> jack {};        ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
 
-	/// As the step begins.
+	/// State as the step begins.
 	std::vector<Vec<Dim>> positions; ///< of the vertices [m]
 	std::vector<double>   length0;   ///< of the pieces without stress [m]
 	std::vector<double>   strain;    ///< of the pieces: logarithmic, elastic, < 0 where they are slack
@@ -66,7 +66,7 @@ template <int Dim> struct Reinforcement {
 	bool slips() const { return std::isfinite(bondStiffness); }
 };
 
-/// Of the soil on one side of a beam, by vertex.
+/// Soil on one side of a beam, by vertex.
 struct BeamSide {
 	std::vector<double> normalForce; ///< by which the beam presses on it [N]
 	std::vector<double> gap;         ///< where the beam has left it [m]
@@ -106,7 +106,7 @@ struct Beam {
 		double headMoment = 0;
 	} before {};
 
-	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along it.
+	/// Springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along it.
 	double stiffness = 10;
 	double adhesion  = inf; ///< [Pa]
 	double friction  = 0;   ///< tan(delta)
@@ -119,7 +119,7 @@ struct Beam {
 	/// (parting_lines.hpp).
 	std::array<bool, 2> isTip {};
 
-	/// As the step begins.
+	/// State as the step begins.
 	std::vector<Vec<2>>     positions;
 	std::vector<double>     turns;      ///< of the vertices in all [rad]
 	std::vector<double>     length0;    ///< of the pieces [m]
@@ -130,8 +130,8 @@ struct Beam {
 	std::array<BeamSide, 2> sides;      ///< left and right
 	/// Ahead of the first and of the last vertex, by integration point.
 	std::array<std::array<TipBond, bondsOfTip>, 2> bonds {};
-	/// By vertex: whether it has had soil on both sides only as one body, or none yet. When that is parted the beam
-	/// bears the stress that was in it.
+	/// Flags of vertices that have had soil on both sides only as one body, or none yet. When that is parted the
+	/// beam bears the stress that was in it.
 	std::vector<char> isStuck;
 
 	/// In the last step that was accepted; of a shell by metre of its sections.
@@ -192,7 +192,7 @@ struct Beam {
 	}
 };
 
-/// What is joined: bars, and a beam that some of them may be anchors of.
+/// Connected structure: bars, and a beam that some of them may be anchors of.
 template <int Dim> struct Structure {
 	std::vector<Reinforcement<Dim>> bars;
 	std::optional<Beam>             beam {}; ///< in the plane
@@ -215,7 +215,7 @@ template <int Dim> struct Structure {
 	/// All of it as much stiffer as the soil around it is made, with what has given way elastically as much less.
 	void stiffen(double scale);
 
-	/// Of the bars, and of the beam behind them.
+	/// Positions of the bars, and of the beam behind them.
 	std::vector<std::vector<Vec<Dim>>> positions() const;
 	void                               putBack(const std::vector<std::vector<Vec<Dim>>>&);
 };

@@ -8,10 +8,11 @@
 namespace gimpm {
 namespace {
 
-/// How far a vertex of a bar may be from the domain of a point [cells]: as of a loaded surface.
+/// Largest distance of a vertex of a bar from the domain of a point [cells]: the same as of a loaded surface.
 constexpr double nearDomain = 0.375;
 
-/// Where the soil beside a beam is looked for [cells]: material within the second of the first, to its left or right.
+/// Distances at which the soil beside a beam is searched [cells]: material within the second of the first, to its left
+/// or right.
 constexpr double besideBeam = 0.5, besideReach = 0.25;
 
 /// In the plane, along t on what is to its left from what is to its right.
@@ -116,7 +117,7 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const StepContext<Di
 	}
 }
 
-/// Of the soil to the left, and the soil to the right where it has other nodes.
+/// Parts the soil along a beam: the soil to the left, and the soil to the right where it has other nodes.
 template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim>& step, std::vector<SoilAtVertex>& soil)
 {
 	if constexpr (Dim == 2) {
@@ -327,7 +328,7 @@ template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
 	system_->commit(x);
 }
 
-/// Of loads on the structure, and of what holds its ends.
+/// Norm of the loads on the structure, and of the reactions at its ends.
 template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd& d)
 {
 	if (!system_) return 0;

@@ -7,8 +7,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Of a spring that yields at a force, or that only presses: its force and slope are the derivatives; with a secant,
-/// the slope is that of a parabola which touches the energy here and is above it elsewhere.
+/// Energy of a spring that yields at a force, or that only presses: its force and tangent are the derivatives; with a
+/// secant, the tangent is that of a parabola which touches the energy here and is above it elsewhere.
 Energy<1> springEnergy(double trial, double stiffness, double limit, bool oneSided, bool secant = false)
 {
 	Energy<1> energy;
@@ -145,8 +145,8 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 	});
 }
 
-/// Where soil that has been one body, or a part of one in which the beam is put, is parted, the beam takes over the
-/// stress that was in it.
+/// Adds the springs of a beam. Where soil that has been one body, or a part of one in which the beam is put, is parted,
+/// the beam takes over the stress that was in it.
 template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const std::vector<SoilAtVertex>& soil)
 {
 	Beam& beam = *structure_.beam;
@@ -262,8 +262,8 @@ template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Reinforcement
 	return made;
 }
 
-/// Of two pieces that meet, one has the strength of the section between them: where both had it and yielded, nothing
-/// would say how much either turns.
+/// Piece of the beam. One of two adjacent pieces has the strength of the section between them: where both had it and
+/// yielded, nothing would say how much either turns.
 template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) const
 {
 	const Beam&  beam     = *structure_.beam;
@@ -376,9 +376,9 @@ template <int Dim> Eigen::VectorXd StructureSystem<Dim>::direction(const EnergyS
 	return step;
 }
 
-/// By Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then far
-/// down, while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure for
-/// it; by secants of the springs the energy then only goes down, and Newton's method ends what they begin.
+/// Solves by Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then
+/// far down, while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure
+/// for it; by secants of the springs the energy then only goes down, and Newton's method ends what they begin.
 template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const
 {
 	constexpr int newtonSteps = 25, secantSteps = 40, rounds = 5;

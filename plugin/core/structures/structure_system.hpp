@@ -42,7 +42,7 @@ public:
 		Eigen::VectorXd x;
 		bool            isFound = true;
 	};
-	/// Of the structure's equilibrium, from a first guess of its own unknowns; all zero if that is empty.
+	/// Solution of the structure's equilibrium, from a first guess of its own unknowns; all zero if that is empty.
 	Solution solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const;
 
 	/// On the soil at equilibrium: the force by which the structure resists its displacements, and the derivative.
