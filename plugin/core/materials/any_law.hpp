@@ -15,7 +15,7 @@ struct TensorStep;
 struct TensorAnswer;
 struct PrincipalLaw; ///< one of core/materials/law.hpp
 
-/// Where a point has its parameters, if it has any of its own, and its internal variables.
+/// Parameters of a point, if it has any of its own, and its internal variables.
 struct PointOfLaw {
 	const ParameterColumns& parameters; ///< empty: those of the law
 	const InternalColumns&  internals;
@@ -33,12 +33,12 @@ private:
 	double (*call_)(const void*);
 };
 
-/// Of waves that press and that shear [Pa].
+/// Moduli of pressure waves and shear waves [Pa].
 struct WaveModuli {
 	double pressure, shear;
 };
 
-/// What a principal law answers to a strain, one point at a time.
+/// Response of a principal law to a strain, one point at a time.
 struct PrincipalAnswer : Response {
 	std::vector<double> internals; ///< after the return
 };
@@ -58,12 +58,12 @@ public:
 	/// The law itself, or of a tensor law one that kernels ask instead of it without using the answer.
 	const PrincipalLaw* principal = nullptr;
 
-	/// Of a point. Young's modulus is that of unloading, as it is now.
+	/// Properties at a point. Young's modulus is that of unloading, as it is now.
 	virtual bool       isSymmetric(const ParameterColumns&, std::size_t point) const = 0;
 	virtual double     young(const PointOfLaw&, const VolumetricStrain&) const       = 0;
 	virtual WaveModuli waveModuli(const PointOfLaw&, const VolumetricStrain&) const  = 0;
 
-	/// What may differ from point to point, and what a factor of safety makes of it.
+	/// Parameters that may differ from point to point, and those reduced by a factor of safety.
 	virtual std::vector<double> parameters() const                                                           = 0;
 	virtual std::vector<double> weakened(const ParameterColumns&, std::size_t point, const Weakening&) const = 0;
 	virtual Law                 with(const std::vector<double>& parameters) const                            = 0;

@@ -25,7 +25,7 @@ public:
 	{
 	}
 
-	/// What may differ from point to point: shearModulus, criticalStateRatio.
+	/// Parameters that may differ from point to point: shearModulus, criticalStateRatio.
 	using Parameters = std::array<double, 2>;
 	Parameters parameters() const { return { shear_, ratio_ }; }
 	CamClay    with(const Parameters& p) const { return { p[0], p[1], compression_, swelling_, preconsolidation_, reference_ }; }
@@ -178,23 +178,23 @@ private:
 		return f;
 	}
 
-	/// Of P and Q with respect to volumetric strain and es of the trial.
+	/// Derivatives of P and Q by volumetric strain and es of the trial.
 	template <class T> struct Derivatives {
 		T pressureByVolume, pressureByShear, stressByVolume, stressByShear;
 	};
-	/// By the derivatives of S(u; strains) = 0.
+	/// Tangent from the derivatives of S(u; strains) = 0.
 	template <class T> GIMPM_INLINE Derivatives<T> derivatives(const Trial<T>& trial, const Flow<T>& f) const
 	{
 		const T P = f.pressure, u = f.root, left = T(1) - u * u, Q = T(ratio_) * P * u, perLength(1 / compression_);
 		const T byVolume = left * Q * T(1 / (3 * shear_)) * perLength + T(2 * plasticShare_ / ratio_) * u;
 		const T inverse = T(-1) / select(trial.yields, f.derivative, T(-1)), uByShear = left * inverse, uByVolume = byVolume * inverse;
-		// Of ln P.
+		// Derivatives of ln P.
 		const T    share = T(plasticShare_) * f.growth, logByVolume = -perLength - share * uByVolume, logByShear = -share * uByShear;
 		const auto of = [&](const T& plastic, const T& elastic) GIMPM_INLINE_LAMBDA { return select(trial.yields, plastic, elastic); };
 		return { of(P * logByVolume, trial.pressure * T(-1 / swelling_)), of(P * logByShear, T(0)),
 			 of(T(ratio_) * P * uByVolume + Q * logByVolume, T(0)), of(T(ratio_) * P * uByShear + Q * logByShear, T(3 * shear_)) };
 	}
-	/// Of stress = -P 1 + sqrt(2/3) Q n with the direction n of the deviator.
+	/// Tangent of stress = -P 1 + sqrt(2/3) Q n with the direction n of the deviator.
 	template <class T> GIMPM_INLINE static void setTangent(const Derivatives<T>& d, const PrincipalValues<T>& n, const T& secant, ResponseOf<T>& r)
 	{
 		const T root(std::sqrt(2. / 3)), twice = T(2) * secant, linear = -d.pressureByVolume - T(1. / 3) * twice;

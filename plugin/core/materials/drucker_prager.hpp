@@ -68,7 +68,7 @@ public:
 		inverse_          = 1 / (elastic_.shear() + elastic_.bulk() * cone.frictionCoefficient * cone.dilation);
 	}
 
-	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
+	/// Parameters that may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
 	/// tensileStrength.
 	using Parameters = std::array<double, 5>;
 	Parameters    parameters() const { return { elastic_.young(), cone_.cohesion, cone_.frictionAngle, cone_.dilationAngle, tension_ }; }

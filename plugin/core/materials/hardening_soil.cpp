@@ -38,7 +38,7 @@ template <class F> double root(double low, double high, double atLow, double atH
 
 } // namespace
 
-/// Of a step, with the state as it begins. Directions are sorted from the most to the least pressed axis.
+/// Trial state of a step, with the state as it begins. Directions are sorted from the most to the least pressed axis.
 struct HardeningSoil::Trial {
 	std::array<int, 3>    axes;                ///< of the principal values
 	double                bulk, shear;         ///< moduli of unloading in the step
@@ -70,7 +70,7 @@ struct HardeningSoil::Flow {
 	bool   isFailed = false;
 };
 
-/// Of P and Q by volumetric strain, shear strain and direction of the trial.
+/// Derivatives of P and Q by volumetric strain, shear strain and direction of the trial.
 struct HardeningSoil::Derivatives {
 	std::array<double, 5> pressure, difference;
 };
@@ -175,7 +175,7 @@ double HardeningSoil::capAt(double before, double volumetric) const
 
 namespace {
 
-/// Of the cap's measure of Q, with delta = (3 + sin phi) / (3 - sin phi): Q of triaxial compression.
+/// Direction of the cap's measure of Q, with delta = (3 + sin phi) / (3 - sin phi): Q of triaxial compression.
 template <class T> T capDirection(const std::array<T, 3>& nu, double sine)
 {
 	const double delta = (3 + sine) / (3 - sine);
@@ -184,7 +184,7 @@ template <class T> T capDirection(const std::array<T, 3>& nu, double sine)
 
 } // namespace
 
-/// By the cap alone: P falls and Q with it as the volume is compacted, and the cap grows.
+/// Return to the cap alone: P falls and Q with it as the volume is compacted, and the cap grows.
 HardeningSoil::Flow HardeningSoil::onCap(const Trial& trial, double pressure, double difference) const
 {
 	Flow         flow { pressure, difference };
@@ -241,7 +241,7 @@ HardeningSoil::Flow HardeningSoil::returned(const Trial& trial) const
 	return flow;
 }
 
-/// What has to vanish: the definitions of P and Q, and what is active.
+/// Residual of the definitions of P and Q, and of the active mechanisms.
 template <class T>
 std::array<T, 4> HardeningSoil::residual(const Trial& trial, const Flow& flow, const std::array<T, 4>& unknown, const std::array<T, 5>& strains) const
 {
@@ -354,7 +354,7 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double g
 	Response    r;
 	r.failed = flow.isFailed || !std::isfinite(flow.pressure + flow.difference);
 	if (r.failed != 0) return r;
-	// Of the trial deviator.
+	// Part that is left of the trial deviator.
 	const double part     = trial.sheared > 0 ? flow.difference / trial.difference()
 	                                          : 1 / (1 + 3 * trial.shear * shape_ * flow.compaction / std::max(flow.pressure, leastPressure * unit_));
 	const Vec3   deviator = strain.array() - strain.mean();
@@ -370,7 +370,7 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double g
 	return r;
 }
 
-/// With d nu_i / d e_j = -sqrt(2/3) / |dev e| (delta_ij - 1/3 - n_i n_j).
+/// Tangent with d nu_i / d e_j = -sqrt(2/3) / |dev e| (delta_ij - 1/3 - n_i n_j).
 void HardeningSoil::setTangent(const Trial& trial, const Derivatives& s, const Vec3& deviator, Response& r) const
 {
 	const double length = deviator.norm(), root = std::sqrt(2. / 3), perLength = length > 0 ? root / length : 0;
@@ -384,7 +384,7 @@ void HardeningSoil::setTangent(const Trial& trial, const Derivatives& s, const V
 	r.tangent          = -Vec3::Ones() * P.transpose() - nu * Q.transpose() + 2 * r.shear[0] * turning;
 }
 
-/// What is remembered at the end.
+/// Sets the internal variables at the end.
 void HardeningSoil::setState(const Trial& trial, const Flow& flow, TensorState& state) const
 {
 	const double smallest = flow.pressure + flow.difference * trial.direction[2], largest = flow.pressure + flow.difference * trial.direction[0];
@@ -421,7 +421,7 @@ TensorState HardeningSoil::bearing(const Mat3& stress, TensorState state) const
 	const double mobilised  = smallest > 0 ? (largest - smallest) / (strengthRatio_ * smallest) : 0;
 	state.scalar(stiffness) = factorAt(smallest);
 	setMobilised(state, smallest, largest);
-	// What is beyond the strength no hardening bears.
+	// Hardening bears no stress beyond the strength.
 	const double reached         = strengthRatio_ * std::max(smallest, 0.) / factorAt(smallest) * hyperbola(std::min(mobilised, 1.));
 	state.scalar(shearHardening) = std::max(state.scalar(shearHardening), reached);
 	std::array<double, 3> sorted { pressure[0], pressure[1], pressure[2] };

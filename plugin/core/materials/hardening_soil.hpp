@@ -27,7 +27,7 @@ public:
 	/// Bounds of `oedometric`, between which the strains of first loading at rest leave the cap a shape: strains of
 	/// elasticity and of shear hardening are less than those of the test.
 	static double largestOedometric(const Given&);
-	/// Of K0, below which first loading at rest would be beyond the strength at the reference pressure.
+	/// Least K0: below it first loading at rest would be beyond the strength at the reference pressure.
 	static double leastRestRatio(const Given&);
 
 	enum { plasticStrain, shearHardening, capPressure, stiffness, mobilisedFriction, dilated }; ///< the variables, by number
@@ -43,7 +43,7 @@ public:
 
 	TensorState initialInternals() const;
 
-	/// What may differ from point to point: E50, Eoed, Eur, cohesion, frictionAngle, dilationAngle.
+	/// Parameters that may differ from point to point: E50, Eoed, Eur, cohesion, frictionAngle, dilationAngle.
 	using Parameters = std::array<double, 6>;
 	Parameters    parameters() const;
 	HardeningSoil with(const Parameters&) const;
@@ -57,11 +57,11 @@ public:
 	/// The state that bears a stress at least: shear hardening and cap are no smaller than what the stress needs,
 	/// and the modulus is that of its smallest pressure.
 	TensorState bearing(const Mat3& stress, TensorState) const;
-	/// Of a stress in that state.
+	/// Elastic strain of a stress in that state.
 	Mat3 strainOf(const Mat3& stress, const TensorState&) const;
 
 	TensorAnswer respond(const TensorStep&) const;
-	/// As if nothing flowed.
+	/// Response without plastic flow.
 	TensorAnswer elastic(const TensorStep&) const;
 
 	const Given& given() const { return given_; }

@@ -12,7 +12,7 @@ Mat3 logarithm(const Mat3& stretch)
 	return p.axes * Vec3(p.value.unaryExpr([](double x) { return std::log1p(x); })).asDiagonal() * p.axes.transpose();
 }
 
-/// That of triaxial compression.
+/// Deviatoric measure that is the shear strain of triaxial compression.
 double shearOf(const Mat3& deviator) { return std::sqrt(1.5) * deviator.norm(); }
 
 } // namespace
@@ -69,10 +69,10 @@ HardeningSoilSmall::Mean HardeningSoilSmall::between(double from, double to) con
 /// Shear strain that is round-off has no direction, and what has been is not forgotten by it.
 static constexpr double leastStep = 1e-12;
 
-/// What a step leaves of the strain since the last turn, and what it adds. Of a step that leads back, at an angle to
-/// the history whose cosine is c < 0, the history's component along it is forgotten, and of that across it, |history|
-/// sqrt(1 - c^2), so much that 1 - c^2 of the whole stays: nothing where the step leads straight back, all of it where
-/// it leads across. So the modulus has no jump where a step turns, which Newton's method would have to cross.
+/// Strain since the last turn that a step leaves, and what the step adds. A step that leads back, at an angle to the
+/// history whose cosine is c < 0, forgets the history's component along it, and of that across it, |history| sqrt(1 -
+/// c^2), so much that 1 - c^2 of the whole stays: nothing where the step leads straight back, all of it where it leads
+/// across. So the modulus has no jump where a step turns, which Newton's method would have to cross.
 HardeningSoilSmall::Turn HardeningSoilSmall::turnOf(const Mat3& history, const Mat3& shearing) const
 {
 	const double length = shearing.norm(), unit = std::sqrt(1.5);

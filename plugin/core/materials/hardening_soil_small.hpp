@@ -12,8 +12,8 @@ namespace gimpm {
 
 class HardeningSoilSmall : public HardeningSoil {
 public:
-	/// Of shear: modulus G0 [Pa] at the reference pressure, no less than that of unloading, and the shear strain >
-	/// 0 at which the secant modulus is .722 of it.
+	/// Small-strain shear: modulus G0 [Pa] at the reference pressure, no less than that of unloading, and the shear
+	/// strain > 0 at which the secant modulus is 0.722 of it.
 	HardeningSoilSmall(const Given& given, double smallest, double strain);
 
 	enum { strainHistory = 6 };
@@ -38,14 +38,14 @@ public:
 private:
 	static constexpr double decay = .385; ///< the secant modulus at g07 is G0 / (1 + decay)
 
-	/// Of shear without turns.
+	/// Curve of shear without turns.
 	struct Curve {
 		double stress, tangent, bend; ///< secant modulus times strain, and its derivatives by it
 	};
 	struct Mean {
 		double modulus, byBegin, byEnd; ///< of shear, and its derivatives by both strains
 	};
-	/// Of the history by a step.
+	/// Turn of the history by a step.
 	struct Turn {
 		Mat3   after;                                            ///< the strain that is remembered
 		double from = 0, to = 0;                                 ///< shear strains between which the modulus is taken

@@ -15,7 +15,7 @@ public:
 	static constexpr std::array<InternalVariable, 0> variables {};
 	static constexpr bool                            mayFail = false, isShort = true, isElastic = true, isLinear = true, canBeWeakened = false;
 
-	/// What may differ from point to point: Young's modulus.
+	/// Parameters that may differ from point to point: Young's modulus.
 	using Parameters = std::array<double, 1>;
 	Parameters parameters() const { return { young_ }; }
 	Hencky     with(const Parameters& p) const { return { p[0], poisson() }; }

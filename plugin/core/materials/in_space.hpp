@@ -40,7 +40,7 @@ public:
 			return r;
 		});
 	}
-	/// As if nothing flowed.
+	/// Response without plastic flow.
 	TensorAnswer elastic(const TensorStep& step) const
 	{
 		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) -> Response {
@@ -63,9 +63,9 @@ public:
 		return p.axes * strain.asDiagonal() * p.axes.transpose();
 	}
 
-	/// Of the stress beyond yield, half of what is lost for each plastic strain, the length of its deviator [Pa]:
-	/// of the tangent D along the deviator, 4 G^2 / (2 G - D) / 2. It is that of shear far beyond yield, under the
-	/// largest pressure at which the law flows then.
+	/// Half of the loss of stress beyond yield for each plastic strain, the length of its deviator [Pa]: by the
+	/// tangent D along the deviator, 4 G^2 / (2 G - D) / 2. It is that of shear far beyond yield, under the largest
+	/// pressure at which the law flows then.
 	template <class Linear = L, class = std::enable_if_t<Linear::isLinear>> double resistance() const
 	{
 		const Vec3   direction = Vec3(1, 0, -1) / std::sqrt(2.);

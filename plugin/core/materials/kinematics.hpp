@@ -131,7 +131,7 @@ template <class T> GIMPM_INLINE T dCoth(const T& d)
 	return T(1) + x * (T(1. / 3) + x * (T(-1. / 45) + x * (T(2. / 945) + x * (T(-1. / 4725) + x * T(2. / 93555)))));
 }
 
-/// Of an elastic logarithmic strain given by b - 1.
+/// Volumetric strain of an elastic logarithmic strain given by b - 1.
 template <int Dim> double volumetricStrain(const SymTensor<Dim>& b1) { return 0.5 * std::log((b1.full() + Mat3::Identity()).determinant()); }
 
 /// Rows and columns (i, j) -> i * Dim + j: moduli a such that stiffness_ab,ik = grad_a,j a_ijkl grad_b,l.

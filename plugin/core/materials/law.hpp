@@ -60,7 +60,7 @@ template <class... Laws> struct LawTraits<std::variant<Laws...>> {
 	static_assert((hasPrincipalMembers<Laws>() && ...));
 	/// One of them.
 	static constexpr bool mayFail = (Laws::mayFail || ...);
-	/// Of one of them.
+	/// Largest number of variables of one of them.
 	static constexpr std::size_t mostVariables = std::max({ std::size_t(0), Laws::variables.size()... });
 
 	/// The variables of all laws, each once.
@@ -113,7 +113,7 @@ auto youngOf(const L& law, const Internals& internals, F&& volumetricStrain, int
 }
 template <class L, class Internals, class F> double youngOf(const L& law, const Internals& internals, F&&, long) { return law.young(internals); }
 
-/// How many parameters of a law may differ from point to point.
+/// Number of parameters of a law that may differ from point to point.
 template <class L> inline constexpr std::size_t countOfParameters = typename L::Parameters().size();
 
 /// f(the law of a point with these columns of parameters).

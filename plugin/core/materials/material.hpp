@@ -9,7 +9,7 @@ namespace gimpm {
 /// not change.
 class Law {
 public:
-	/// Of a class of laws: the header that knows of its kind has handleOf(law).
+	/// Makes a law from one of a class of laws: the header that knows of its kind has handleOf(law).
 	template <class L, class = std::enable_if_t<!std::is_base_of_v<AnyLaw, L> && !std::is_same_v<L, Law>>>
 	Law(const L& law) : Law(std::shared_ptr<const AnyLaw>(handleOf(law)))
 	{
@@ -57,7 +57,7 @@ struct Material {
 /// The parameters of the law itself.
 inline std::vector<double> parametersOf(const Law& law) { return law->parameters(); }
 
-/// Whether the laws of all of these points have symmetric tangents, and so a stiffness that is symmetric.
+/// True if the laws of all of these points have symmetric tangents, and so a stiffness that is symmetric.
 bool areSymmetric(const std::vector<Material>&, const std::vector<int>& material, const ParameterColumns&);
 
 /// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many

@@ -96,7 +96,7 @@ bool MfrontDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Ma
 	return true;
 }
 
-// By Newton's method, as near as round-off admits; what a stress that the law cannot bear leads to is not taken.
+// Solves by Newton's method, as near as round-off admits; a state with a stress that the law cannot bear is not taken.
 void MfrontDoor::bear(const Mat3& stress, UserState& state) const
 {
 	constexpr int mostSolves = 30;

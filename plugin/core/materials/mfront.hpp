@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// What the function of a law is given; the order of the members is that of the interface. Symmetric tensors are xx,
-/// yy, zz and sqrt(2) times xy, xz, yz; matrices are row by row.
+/// Arguments of a law's function; the order of the members is that of the interface. Symmetric tensors are xx, yy, zz
+/// and sqrt(2) times xy, xz, yz; matrices are row by row.
 struct MfrontData {
 	/// `Number` is const in the state at the beginning.
 	template <class Number> struct State {
@@ -35,7 +35,7 @@ struct MfrontData {
 /// Answers -1 where it has no answer, 0 where it does not rely on it, and 1.
 using Mfront = int (*)(MfrontData*);
 
-/// What else a law is known by. Internal variables in its order.
+/// Description of a law besides its function. Internal variables in its order.
 struct MfrontGiven {
 	enum class Variable { scalar, tensor };
 

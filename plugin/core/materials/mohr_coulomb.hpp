@@ -36,7 +36,7 @@ public:
 	/// Without friction; the undrained strength [Pa] is half of the largest difference of principal stresses.
 	static MohrCoulomb tresca(double young, double poisson, double undrainedStrength) { return { young, poisson, undrainedStrength, 0, 0 }; }
 
-	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
+	/// Parameters that may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
 	/// tensileStrength.
 	using Parameters = std::array<double, 5>;
 	Parameters  parameters() const { return given_; }
@@ -165,9 +165,9 @@ private:
 		r.left   = beyondLeft > r.tolerance;
 		r.apex   = beyondApex > T(k_ - 1) * r.tolerance;
 	}
-	/// What the other planes leave above the tensile strength: t1 is cut; t2 and t3 where they would still be above
-	/// it; and where that would violate the yield function, t3 follows from it. A stress on none of these planes
-	/// does without plastic strain along its axis, as in uniaxial stress.
+	/// Cuts what the other planes leave above the tensile strength: t1 is cut; t2 and t3 where they would still be
+	/// above it; and where that would violate the yield function, t3 follows from it. A stress on none of these
+	/// planes does without plastic strain along its axis, as in uniaxial stress.
 	template <class T> GIMPM_INLINE void cutTension(Return<T>& r) const
 	{
 		const T    cut(cut_), remote(remote_), excess = (r.trial[0] - cut) * T(tension_.flow[1] * tension_.inverse);
@@ -193,7 +193,7 @@ private:
 		const double poisson = elastic_.young() / (2 * elastic_.shear()) - 1;
 		return T(elastic_.young()) * strain + T(poisson * others);
 	}
-	/// How far a number is from an interval; negative inside.
+	/// Distance of a number from an interval; negative inside.
 	template <class T> GIMPM_INLINE static T outside(const T& x, const T& from, const T& to) { return select(x - to > from - x, x - to, from - x); }
 
 	template <class T> GIMPM_INLINE TangentForm<T> tangentForm(const Return<T>& r) const
@@ -211,7 +211,7 @@ private:
 		}
 		return isCut_ ? cutForm(r, form) : form;
 	}
-	/// Of points that the tension planes cut; that of the others stays.
+	/// Tangent of points that the tension planes cut; that of the others stays.
 	template <class T> GIMPM_INLINE TangentForm<T> cutForm(const Return<T>& r, TangentForm<T> form) const
 	{
 		const T    zero(0), one(1);

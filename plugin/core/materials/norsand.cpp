@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Of a step: elastic volumetric and shear strain, image pressure before, specific volume after.
+/// Trial state of a step: elastic volumetric and shear strain, image pressure before, specific volume after.
 struct NorSand::Trial {
 	double volumetric, shear, image, volume;
 };
@@ -59,8 +59,9 @@ double NorSand::imageAt(double p, double eta) const
 	return p * std::pow(std::max(0., 1 - eta * N / M) / (1 - N), (N - 1) / N);
 }
 
-/// Of elastic volumetric and shear strain, flow and image pressure: flow along the potential, the yield function, and
-/// pi - pi_before = -h flow (pi - pi_most), where pi_most is that of the largest dilatancy at this state parameter.
+/// Residual by elastic volumetric and shear strain, flow and image pressure: flow along the potential, the yield
+/// function, and pi - pi_before = -h flow (pi - pi_most), where pi_most is that of the largest dilatancy at this state
+/// parameter.
 std::pair<NorSand::Vec4, NorSand::Mat4> NorSand::residual(const Trial& trial, const Vec4& x) const
 {
 	const double N = given_.curvature, M = given_.ratio, h = given_.hardening, G = given_.shear, flow = x[2], pi = x[3];
@@ -145,7 +146,7 @@ double NorSand::tip() const
 	return N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
 }
 
-/// Whether the pressure is beyond the tip even when the whole deviator has flowed, and all its contraction with it.
+/// True if the pressure is beyond the tip even when the whole deviator has flowed, and all its contraction with it.
 bool NorSand::isBeyondTip(const Trial& trial) const
 {
 	const double volumetric = trial.volumetric + trial.shear * nonAssociated_ * given_.ratio / (1 - given_.curvature);

@@ -9,9 +9,9 @@ namespace gimpm {
 
 class NorSand : public TensorLaw {
 public:
-	/// With P and Q of the Kirchhoff stress, P positive in compression, and the specific volume v, the yield
-	/// function is Q - eta P, eta = M / N (1 - (1 - N) (P / Pi)^(N / (1 - N))), or M (1 + ln(Pi / P)) for N = 0.
-	/// Critical states are v = criticalVolume - compression ln(P / criticalPressure).
+	/// Yield function Q - eta P with P and Q of the Kirchhoff stress, P positive in compression, and the specific
+	/// volume v: eta = M / N (1 - (1 - N) (P / Pi)^(N / (1 - N))), or M (1 + ln(Pi / P)) for N = 0. Critical states
+	/// are v = criticalVolume - compression ln(P / criticalPressure).
 	struct Given {
 		double shear, swelling, reference;                           ///< G [Pa]; slope of elastic strain over ln P; P without elastic strain [Pa]
 		double ratio, compression, criticalVolume, criticalPressure; ///< M; slope of v; v at criticalPressure [Pa]
@@ -29,7 +29,7 @@ public:
 
 	TensorState initialInternals() const;
 
-	/// What may differ from point to point: shearModulus, criticalStateRatio.
+	/// Parameters that may differ from point to point: shearModulus, criticalStateRatio.
 	using Parameters = std::array<double, 2>;
 	Parameters parameters() const { return { given_.shear, given_.ratio }; }
 	NorSand    with(const Parameters&) const;
@@ -46,13 +46,14 @@ public:
 	Mat3        strainOf(const Mat3& stress, const TensorState&) const;
 
 	TensorAnswer respond(const TensorStep&) const;
-	/// As if nothing flowed.
+	/// Response without plastic flow.
 	TensorAnswer elastic(const TensorStep&) const;
 
 private:
-	/// As of Cam clay. By less than the tolerance, relative to the pressure, nothing yields. Of the elastic
-	/// stiffness some is left at the tip (see tangentFloor of perfect plasticity). Of a point that has borne
-	/// nothing yet the image pressure is that part of the reference pressure, and at that of it sand comes apart.
+	/// Limits, as in Cam clay. Nothing yields by less than the tolerance, relative to the pressure. A part
+	/// floorAtTip of the elastic stiffness is left at the tip (see tangentFloor of perfect plasticity). A point
+	/// that has borne nothing yet has the image pressure leastImage times the reference pressure; at leastPressure
+	/// times it sand comes apart.
 	static constexpr double mostExponent = 100, tolerance = 1e-9, floorAtTip = 1e-8, leastImage = 1e-6, leastPressure = 1e-6;
 
 	struct Trial;

@@ -10,7 +10,7 @@
 
 namespace gimpm {
 
-/// Of those tests, relative to the size of the trial stress.
+/// Tolerance of those tests, relative to the size of the trial stress.
 inline constexpr double sectorTolerance = 1e-9;
 
 /// On an edge the tangent has rank one, at an apex it is zero: a body of such points would make the stiffness singular.

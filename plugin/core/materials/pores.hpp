@@ -16,14 +16,14 @@ struct Pores {
                 double>::quiet_NaN(); ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
 	bool areRigid = false;               ///< water passes without pressing on the grains, and their strain displaces no water
 
-	/// Of the water in a volume that was 1 at first, which now is J.
+	/// Conductivity for the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {
 		double value;         ///< [m2/(Pa s)]
 		double logDerivative; ///< d ln value / d ln J
 	};
 	Conductivity at(double J) const;
 
-	/// Whether grains, which keep their volume, leave room for water.
+	/// True if grains, which keep their volume, leave room for water.
 	bool areOpen(double J) const { return J > 1 - porosity; }
 };
 

@@ -41,7 +41,7 @@ public:
 
 	TensorState initialInternals() const;
 
-	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
+	/// Parameters that may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
 	/// tensileStrength.
 	using Parameters = std::array<double, 5>;
 	Parameters   parameters() const;
@@ -56,7 +56,7 @@ public:
 	TensorState bearing(const Mat3& stress, TensorState) const;
 
 	TensorAnswer respond(const TensorStep&) const;
-	/// As if nothing flowed.
+	/// Response without plastic flow.
 	TensorAnswer elastic(const TensorStep&) const;
 
 private:

@@ -16,7 +16,7 @@ public:
 			this->exchange(exchange, sorted);
 		}
 	}
-	/// What belongs to the sorted axes, in the order that the axes had.
+	/// Values of the sorted axes, in the order that the axes had.
 	GIMPM_INLINE PrincipalValues<T> restored(PrincipalValues<T> values) const
 	{
 		for (int exchange = 2; exchange >= 0; --exchange)

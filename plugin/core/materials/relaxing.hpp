@@ -15,8 +15,8 @@ public:
 	/// time > 0 [s].
 	Relaxing(const L& law, double time) : law_(law), time_(time) { }
 
-	/// By a plastic viscosity > 0 [Pa s] instead (Bingham, Perzyna): in simple shear the stress is the strength and
-	/// viscosity times the rate of shear. L has a resistance() of the stress to flow [Pa].
+	/// Law with a plastic viscosity > 0 [Pa s] instead (Bingham, Perzyna): in simple shear the stress is the
+	/// strength and viscosity times the rate of shear. L has a resistance() of the stress to flow [Pa].
 	static Relaxing viscous(const L& law, double viscosity)
 	{
 		Relaxing own(law, viscosity / law.resistance());

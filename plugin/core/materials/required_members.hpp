@@ -8,7 +8,7 @@ namespace gimpm {
 
 struct Weakening;
 
-/// Whether the expression e(std::declval<const L&>()) compiles.
+/// True if the expression e(std::declval<const L&>()) compiles.
 template <class L, class E> constexpr bool compiles(E&&) { return std::is_invocable_v<E, const L&>; }
 
 #define GIMPM_HAS(expression) compiles<L>([]([[maybe_unused]] const auto& law) -> decltype((void)(expression)) {})

@@ -41,11 +41,11 @@ template <class T> GIMPM_INLINE T partTaken(const T& theta)
 	return select(part > T(0), part, T(0));
 }
 
-/// With the internal variables of the law after the return.
+/// Response with the internal variables of the law after the return mapping.
 template <class T, std::size_t Count> struct ResponseWith : ResponseOf<T> {
 	std::array<T, Count> internals {};
 
-	/// That of a law with no more variables.
+	/// Takes the response of a law with no more variables.
 	template <std::size_t Fewer> GIMPM_INLINE void take(const ResponseWith<T, Fewer>& o)
 	{
 		static_cast<ResponseOf<T>&>(*this) = o;

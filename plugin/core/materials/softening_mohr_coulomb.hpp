@@ -13,7 +13,7 @@ namespace gimpm {
 
 class SofteningMohrCoulomb : public TensorLaw {
 public:
-	/// Of the strength that is left. `strain` > 0 is the softening strain at which it is; until then it falls
+	/// Residual strength. `strain` > 0 is the softening strain at which it is reached; until then strength falls
 	/// linearly.
 	struct Residual {
 		double cohesion, frictionAngle, dilationAngle, strain;
@@ -51,7 +51,7 @@ public:
 	bool   isSymmetric() const { return false; }
 	double young(const TensorState&) const { return first_.parameters()[0]; }
 
-	/// Where it has softened by a strain; where that is negative it is stronger than at first.
+	/// Law softened by a strain; where that is negative it is stronger than at first.
 	MohrCoulomb softened(double strain) const
 	{
 		const auto [young, cohesion, friction, dilation, tension] = first_.parameters();
@@ -79,9 +79,10 @@ private:
 
 	Response at(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }); }
 
-	/// By which strength goes in a step that begins with a softening strain `before`, with the plastic strain a > 0
-	/// of the step. Fully softened soil would be perfectly plastic, and a layer of it has no stiffness at all where
-	/// there is no friction: so its strength, too, grows in a step, by a part of the rate with which it has fallen.
+	/// Strain by which strength goes in a step that begins with a softening strain `before`, with the plastic
+	/// strain a > 0 of the step. Fully softened soil would be perfectly plastic, and a layer of it has no stiffness
+	/// at all where there is no friction: so its strength, too, grows in a step, by a part of the rate with which
+	/// it has fallen.
 	double strengthStrain(double before, double a) const { return std::min(before - a, residual_.strain - restored * a); }
 	double restoredBy(double before, double a) const { return before - a < residual_.strain - restored * a ? 1 : restored; }
 

@@ -16,8 +16,8 @@ const char* kept(std::string name)
 /// x / sinh x.
 double overSinh(double x) { return std::abs(x) < 1e-3 ? 1 - x * x * (1. / 6 - x * x * 7. / 360) : x / std::sinh(x); }
 
-/// Of one step: stretches V and rotation R with F = V R, and the trial elastic strain e, the axes of which are those of
-/// b.
+/// Trial state of one step: stretches V and rotation R with F = V R, and the trial elastic strain e, the axes of which
+/// are those of b.
 struct TrialState {
 	Principal<3> V, b;
 	Vec3         lambda, e;
@@ -28,7 +28,7 @@ struct TrialState {
 	{
 		const Vec3 stretch = logStrain<double>(V.value);
 		lambda             = stretch.array().exp();
-		// Of V, less 1.
+		// Inverse of V, less 1.
 		const Mat3 shrink = V.axes * Vec3(stretch.unaryExpr([](double x) { return std::expm1(-x); })).asDiagonal() * V.axes.transpose();
 		const Mat3 F      = gradient + Mat3::Identity();
 		R                 = F + shrink * F;

@@ -110,7 +110,7 @@ inline Mat3 fromMandel(const Vec6& v)
 	return m;
 }
 
-/// What a tensor law is asked.
+/// Input of a tensor law.
 struct TensorStep {
 	Mat3        trialStrain;       ///< elastic logarithmic strain if nothing flows in the step
 	Mat3        stretch;           ///< U of the step
@@ -120,7 +120,7 @@ struct TensorStep {
 	bool        isBeginning  = false; ///< nothing has strained yet and no time has gone by: the stress that there is, is wanted alone
 };
 
-/// What it answers.
+/// Response of a tensor law.
 struct TensorAnswer {
 	Mat3        stress        = Mat3::Zero();   ///< Kirchhoff stress [Pa]
 	Mat3        elasticStrain = Mat3::Zero();   ///< after the step
@@ -161,9 +161,9 @@ template <class L> std::vector<int> columnsOfTensorLaw()
 	return columns;
 }
 
-/// What handles of laws are whose history follows from a stress [Pa], as hardening that the soil must have had to bear
-/// it. Such a law has `TensorState bearing(const Mat3& stress, TensorState) const`, the state that bears it at least,
-/// and `Mat3 strainOf(const Mat3& stress, const TensorState&) const`, the elastic strain that has it then.
+/// Interface of laws whose history follows from a stress [Pa], as hardening that the soil must have had to bear it.
+/// Such a law has `TensorState bearing(const Mat3& stress, TensorState) const`, the state that bears it at least, and
+/// `Mat3 strainOf(const Mat3& stress, const TensorState&) const`, the elastic strain that has it then.
 struct BearsStress {
 	virtual ~BearsStress()                                                                               = default;
 	virtual std::vector<double> bearing(const Mat3& stress, const std::vector<double>& internals) const  = 0;

@@ -13,7 +13,7 @@ namespace gimpm {
 /// The row of Mandel's notation that such a law's i-th component has: their last two are in another order.
 constexpr int mandelOf(int i) { return i < 4 ? i : 9 - i; }
 
-/// What such a law remembers of a point: tensors, which turn with the material, and scalars.
+/// Internal variables of such a law at a point: tensors, which turn with the material, and scalars.
 struct UserState {
 	static constexpr int mostTensors = 3, mostScalars = 20;
 	/// A law that takes more parameters or scalars than there are has no finite answer then, and harms nothing.
@@ -29,7 +29,7 @@ struct UserState {
 	}
 };
 
-/// What it is asked.
+/// Input of such a law.
 struct UserStep {
 	Mat3   stress, strain; ///< Kirchhoff stress [Pa] and logarithmic strain as the step begins
 	Mat3   increment;      ///< of the strain
@@ -65,10 +65,10 @@ private:
 	int tensors_, scalars_;
 };
 
-/// What the last law behind a door that had no answer said of it in this thread; empty: nothing.
+/// Text of the last law of this thread that had no answer; empty: none.
 std::string& wordsOfUserLaw();
 
-/// With room for so many tensors and scalars.
+/// User law with room for so many tensors and scalars.
 template <int Tensors, int Scalars> class UserLaw : public TensorLaw {
 	static constexpr int                                                   ofAll = 4; // variables that all such laws have
 	static constexpr std::array<TensorVariable, ofAll + Tensors + Scalars> makeVariables();

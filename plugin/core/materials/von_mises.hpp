@@ -25,7 +25,8 @@ public:
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false, isShort = true, isElastic = false, isLinear = true, canBeWeakened = true;
 
-	/// What may differ from point to point: Young's modulus, yieldStress, hardening, residualYieldStress.
+	/// Parameters that may differ from point to point: Young's modulus, yieldStress, hardening,
+	/// residualYieldStress.
 	using Parameters = std::array<double, 4>;
 	Parameters parameters() const { return { elastic_.young(), yield_, hardening_, residual_ }; }
 	VonMises   with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], p[3] }; }

@@ -2,7 +2,7 @@
 #include "core/solvers/blas_threads.hpp"
 #include <omp.h>
 
-// Of OpenBLAS; null beside any other BLAS, which is left as it is.
+// OpenBLAS functions; null beside any other BLAS, which is left as it is.
 extern "C" __attribute__((weak)) int  openblas_get_num_threads();
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int);
 

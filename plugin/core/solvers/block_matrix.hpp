@@ -13,8 +13,8 @@ public:
 
 	BlockMatrix(const NodeMatrix<Dim>&, const FreeDofs&);
 
-	/// Of the nodes `here`, which are numbered from the first one on, what is in the rows and columns of the nodes
-	/// `own`, whose neighbours they must contain. The other rows of a product say nothing.
+	/// Blocks in the rows and columns of the nodes `own`, among the nodes `here`, which must contain their
+	/// neighbours and are numbered from the first one on. The other rows of a product say nothing.
 	BlockMatrix(const NodeMatrix<Dim>&, const FreeDofs&, const Range& here, const Range& own);
 
 	/// The result does not depend on the number of threads. With two of them it takes less than half as long as the

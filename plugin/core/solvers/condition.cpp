@@ -4,8 +4,8 @@
 #include "core/solvers/linear_solver.hpp"
 #include <limits>
 
-// Of LAPACK, with the lengths of the texts last. Eigen's templates for the same took the compiler longer than all other
-// solvers together.
+// LAPACK functions, with the lengths of the texts last. Eigen's templates for the same took the compiler longer than
+// all other solvers together.
 extern "C" {
 void dsterf_(const int* size, double* diagonal, double* beside, int* info);
 void dsyev_(

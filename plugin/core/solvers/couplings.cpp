@@ -57,7 +57,7 @@ void Couplings::setZero()
 	values_.assign(next, 0);
 }
 
-/// Of the values of a block that is kept.
+/// First of the values of a block that is kept.
 std::size_t Couplings::firstOf(int row, int column) const { return std::lower_bound(rows_[row].begin(), rows_[row].end(), column)->first; }
 
 void Couplings::findOffsets(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* offsets) const

@@ -7,15 +7,15 @@
 
 namespace gimpm {
 
-/// Where a block begins: a node in one of the fields.
+/// Begin of a block: a node in one of the fields.
 struct FieldNode {
 	int field = 0, node = 0;
 };
 
-/// What a matrix has beside the blocks of NodeMatrix, which are for displacements of neighbours on the grid: blocks for
-/// pairs of fields, and for nodes that are apart. There is memory for those only that have been marked. Of a symmetric
-/// matrix, which it is when the rows of each field have its sign, the blocks above the diagonal are kept: who adds K_ab
-/// and K_ba need not know of it.
+/// Coupling blocks of a matrix besides those of NodeMatrix, which are for displacements of neighbours on the grid:
+/// blocks for pairs of fields, and for nodes that are apart. There is memory for those only that have been marked. A
+/// symmetric matrix, which it is when the rows of each field have its sign, keeps the blocks above the diagonal:
+/// callers that add K_ab and K_ba need not know of it.
 class Couplings {
 public:
 	/// Sets up a matrix without blocks. The map must outlive it.
@@ -34,13 +34,14 @@ public:
 	}
 	void add(const FieldNode& row, const FieldNode& column, double value) { add(row, column, Eigen::Matrix<double, 1, 1>(value)); }
 
-	/// Where the blocks of one row with `count` nodes in one field begin among the values, or -1 where they are not
-	/// kept; all are marked, those with nodes < 0 left out. Fast where nodes rise. Until another block is marked.
+	/// Finds the begins of the blocks of one row with `count` nodes in one field among the values, or -1 where they
+	/// are not kept; all are marked, those with nodes < 0 left out. Fast where nodes rise. Valid until another
+	/// block is marked.
 	void    findOffsets(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* offsets) const;
 	double* values() { return values_.data(); }
 
 	bool isSymmetric() const { return isSymmetric_; }
-	/// With which a row of the field is multiplied so that the matrix is symmetric; one of a matrix that is not.
+	/// Factor of a row of the field that makes the matrix symmetric; one for a matrix that is not.
 	int           signOf(int field) const { return isSymmetric_ ? (*map_)[field].sign : 1; }
 	const DofMap& map() const { return *map_; }
 
@@ -63,7 +64,7 @@ public:
 		for (const Entry& entry : rows_[numberOf(row)])
 			f(fieldNodeOf(entry.column), values_.data() + entry.first);
 	}
-	/// Whether there are any between displacements.
+	/// True if there are any between displacements.
 	bool areWithinDisplacements() const;
 
 private:
@@ -88,13 +89,13 @@ private:
 	std::vector<double>             values_;
 };
 
-/// By unknowns.
+/// Entry by unknowns.
 struct MatrixEntry {
 	int    row, column;
 	double value;
 };
 
-/// Of couplings of displacements, between free ones: both triangles.
+/// Entries of couplings of displacements between free unknowns: both triangles.
 std::vector<MatrixEntry> freeEntries(const Couplings&, const FreeDofs&);
 
 } // namespace gimpm

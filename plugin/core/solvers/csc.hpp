@@ -28,7 +28,7 @@ struct GeneralCsc : Csc {
 /// K x of a symmetric matrix given by its upper triangle.
 Eigen::VectorXd timesSymmetric(const Csc& upper, const Eigen::VectorXd& x);
 
-/// Of a symmetric matrix given by one of its triangles.
+/// Both triangles of a symmetric matrix given by one of them.
 GeneralCsc bothTriangles(const Csc&);
 
 } // namespace gimpm

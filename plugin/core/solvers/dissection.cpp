@@ -62,8 +62,8 @@ public:
 	double flops() const { return flops_; }
 
 private:
-	/// Where along an axis the fewest nodes have to be cut out, next to the centre if that is the same, so that a
-	/// quarter of them is left on either side.
+	/// Position along an axis at which the fewest nodes have to be cut out, next to the centre if that is the same,
+	/// so that a quarter of them is left on either side.
 	static int thinnestLayer(Nodes begin, Nodes end, int axis, int low, int high)
 	{
 		std::vector<int> layer(high - low + 1, 0);

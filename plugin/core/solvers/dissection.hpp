@@ -8,9 +8,9 @@ namespace gimpm {
 
 using NodePosition = std::array<int, 3>; ///< on the grid; the third 0 in the plane
 
-/// Whether Cholesky's method takes more operations than `flops` if the nodes are eliminated by nested dissection: cut
-/// across their longest axis, again and again, with a node coupled to those at most `reach` away along each axis. Of a
-/// body with few nodes to a cross section, as any in the plane, its box tells without them.
+/// True if Cholesky's method takes more operations than `flops` with nested dissection of the nodes: cut across their
+/// longest axis, again and again, with a node coupled to those at most `reach` away along each axis. For a body with
+/// few nodes to a cross section, as any in the plane, its box tells without them.
 bool needsMoreFlops(std::vector<NodePosition>, double unknownsPerNode, double reach, double flops);
 
 } // namespace gimpm

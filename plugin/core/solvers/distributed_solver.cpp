@@ -36,7 +36,7 @@ Eigen::VectorXd scaleOf(const NodeRows& rows)
 
 } // namespace
 
-/// Which part of a vector is whose.
+/// Partition of a vector.
 struct DistributedSolver::Partition {
 	OwnedNodes        ownedNodes;
 	std::vector<int>  dof;    ///< of the rows of this process
@@ -102,7 +102,7 @@ struct DistributedSolver::Task {
 	}
 };
 
-/// As the factor is that of D K D, with ones on the diagonal.
+/// Factor of D K D, with ones on the diagonal.
 struct DistributedSolver::Factor {
 	Partition       partition;
 	Eigen::VectorXd scale; ///< D of this process
@@ -162,7 +162,7 @@ bool DistributedSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 	return factor_->solve(solver_, b, x);
 }
 
-/// As one process does it where K is symmetric and of one field; else an incomplete factor would depend on how the
+/// Iterates like one process where K is symmetric and of one field; else an incomplete factor would depend on how the
 /// nodes are cut.
 bool DistributedSolver::iterate(Task& task, LinearMethod method)
 {

@@ -25,11 +25,11 @@ public:
 	        const NodeProblem&, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance, SolverTimes&,
 	        IterativeEffort&);
 
-	/// By GMRES with multigrid, also in one process. Empty, or why it fails.
+	/// Solves by GMRES with multigrid, also in one process. Empty, or why it fails.
 	std::string solveWithMultigrid(
 	        const NodeProblem&, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, SolverTimes&, IterativeEffort&);
 
-	/// Whether the last solve has left a factor, and another right side for it.
+	/// True if the last solve has left a factor; solves another right side with it.
 	bool hasFactor() const { return factor_ != nullptr; }
 	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 

@@ -19,7 +19,7 @@ struct Cut {
 	double cost    = std::numeric_limits<double>::infinity();
 };
 
-/// How many of the nodes lie in each layer across an axis, and are coupled across the plane below it: from below and
+/// Numbers of nodes that lie in each layer across an axis, and are coupled across the plane below it: from below and
 /// from above.
 struct Layers {
 	int              lowest;
@@ -88,7 +88,7 @@ private:
 		return best;
 	}
 
-	/// By the nodes to be cut out: somewhat more of them are admitted where the parts are alike.
+	/// Improves the cut by the nodes to be cut out: somewhat more of them are admitted where the parts are alike.
 	static void improve(Cut& best, int axis, const Layers& layers, int count)
 	{
 		int below = 0;

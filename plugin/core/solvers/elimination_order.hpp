@@ -18,8 +18,8 @@ struct Order {
 	int              first = 0, second = 0; ///< how many there are in the parts
 };
 
-/// Of the nodes, by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across one of
-/// the axes; those beside it that are coupled to the other side come last, and each side is parted in turn.
+/// Order of the nodes by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across
+/// one of the axes; those beside it that are coupled to the other side come last, and each side is parted in turn.
 Order eliminationOrder(const NodeGraph&);
 
 } // namespace gimpm

@@ -139,7 +139,7 @@ private:
 		out.symmetricPart = out.value;
 	}
 
-	/// Where a block begins among the values: of its row i this is so far from the begin of the row.
+	/// Begin of a block among the values: its row i is this far from the begin of the row.
 	int offset(const FieldNode& row, const FieldNode& column) const
 	{
 		const auto& columns = columns_[row_[row.node] - begin_];

@@ -20,10 +20,10 @@ struct NodePairs {
 	void sort();
 };
 
-/// With A = S K S, S a diagonal matrix of which D = 1 / S^2 becomes ones, and L and U what is below and above it in
-/// blocks of nodes, which may be swept side by side, it is (1 + L)^-1 A (1 + U)^-1: one product an iteration
-/// (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981), and for a mass a third of the iterations that the diagonal takes. D
-/// may differ from the diagonal of K: it is K + D - diag K of which all this is said.
+/// Gauss-Seidel preconditioner. With A = S K S, S a diagonal matrix of which D = 1 / S^2 becomes ones, and L and U what
+/// is below and above it in blocks of nodes, which may be swept side by side, it is (1 + L)^-1 A (1 + U)^-1: one
+/// product an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981), and for a mass a third of the iterations that
+/// the diagonal takes. D may differ from the diagonal of K: it is K + D - diag K of which all this is said.
 class GaussSeidel : public SymmetricOperator {
 public:
 	/// `scale`: S for `columns` components a node (2, 3, 4, 6 or 9), zero for what is left out. K must outlive it.

@@ -12,11 +12,11 @@ namespace {
 /// factor where GMRES is preferred. Close to failure fewer do not suffice.
 constexpr int kept = 100;
 
-/// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as
-/// of one point a cell in the centre of it, make the incomplete factor useless.
+/// Most iterations: they have then taken as long as a factorisation, and more would hardly suffice: zero-energy modes,
+/// as of one point a cell in the centre of it, make the incomplete factor useless.
 constexpr int maxIterations = 200;
 
-/// With the diagonal, each of which takes less time.
+/// Most iterations with the diagonal, each of which takes less time.
 constexpr int mostWithDiagonal = 300;
 
 struct NoPivot { };
@@ -100,7 +100,7 @@ struct Iteration {
 	double                 error = 1;
 	int                    made  = 0;
 
-	/// As many iterations as there are directions, at most. Whether it has converged.
+	/// Makes at most as many iterations as there are directions. True if it has converged.
 	template <class M> bool cycle(const M& preconditioner)
 	{
 		const Eigen::VectorXd residual   = b - K * x;
@@ -118,7 +118,7 @@ struct Iteration {
 	}
 };
 
-/// With the diagonal, as long as it gains enough to get there.
+/// Iterates with the diagonal, as long as it gains enough to get there.
 bool byDiagonal(Iteration& iteration)
 {
 	const Diagonal diagonal(iteration.K);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-// Of LAPACK. Eigen's template for the same took the compiler longer than all else in the files that need it.
+// LAPACK function. Eigen's template for the same took the compiler longer than all else in the files that need it.
 extern "C" void dgelsy_(
         const int* rows, const int* columns, const int* sides, double* matrix, const int* stride, double* b, const int* bStride, int* pivots,
         const double* least, int* rank, double* work, const int* workSize, int* info);

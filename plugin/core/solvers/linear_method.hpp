@@ -9,7 +9,7 @@ namespace gimpm {
 /// iterations. `multigrid` is the same from the first iteration on.
 enum class LinearMethod { automatic, direct, iterative, multigrid };
 
-/// How it was solved. `lu`: by pivots (L U or L D L^T), as K is not positive definite, or not symmetric.
+/// Method of a solve. `lu`: by pivots (L U or L D L^T), as K is not positive definite, or not symmetric.
 enum class SolverStatus { cholesky, lu, singular, iterative };
 
 struct SolverTimes {

@@ -40,7 +40,7 @@ public:
 	/// NodeProblem::ordering; empty where nodes are not known.
 	Order ordering() const { return overNodes_ ? overNodes_->ordering() : Order(); }
 
-	/// What is stored: of a symmetric matrix one triangle.
+	/// Stored matrix: of a symmetric one a triangle.
 	const Csc& stored() const { return isSymmetric() ? static_cast<const Csc&>(symmetric()) : general(); }
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return isSymmetric() ? symmetric() * x : general() * x; }

@@ -21,8 +21,8 @@ namespace {
 /// is the one that finds singular matrices and is not slowed down by ill-conditioned ones.
 constexpr double worthwhileFlops = 1e4;
 
-/// What the positions of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds,
-/// which takes longer than the decision is worth.
+/// Margin of an estimate from the positions of the nodes: it may be less than half of what the analysis finds, which
+/// takes longer than the decision is worth.
 constexpr double safetyFactor = 2;
 
 bool isTooLarge(const LinearProblem& K) { return K.ofAllFields() && K.ofAllFields()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
@@ -98,7 +98,7 @@ struct LinearSolver::Direct {
 	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
 	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is another one
 
-	// Of a matrix that is symmetric by signs of its rows; null: it needs no pivoting, or Cholesky's factor.
+	// Factor of a matrix that is symmetric by signs of its rows; null: it needs no pivoting, or Cholesky's factor.
 	std::unique_ptr<Multifrontal> indefinite;
 	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix, or L S U of a general one
 	bool                          isGeneral     = false;
@@ -286,13 +286,13 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 	return solve(K, b, x);
 }
 
-/// Whether a factor is worthwhile is left to the positions of the nodes: an analysis would need the whole matrix in one
-/// process.
+/// Solves together. The positions of the nodes decide whether a factor is worthwhile: an analysis would need the whole
+/// matrix in one process.
 LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
 	openTogether(K.ofAllFields()->ownedNodes());
 	if (method == LinearMethod::automatic) {
-		// By the blocks that each of them knows.
+		// Estimate by the blocks that each of them knows.
 		std::int64_t isLarge = K.ofAllFields()->needsMoreFlopsPerEntry(worthwhileFlops);
 		K.ofAllFields()->ownedNodes().processes.smallest(&isLarge, 1);
 		if (!isLarge) method = LinearMethod::direct;

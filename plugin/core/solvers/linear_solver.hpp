@@ -37,10 +37,10 @@ public:
 	/// over nodes, and for those of several fields.
 	bool solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod = LinearMethod::iterative);
 
-	/// Whether `automatic` stands for `iterative`.
+	/// True if `automatic` stands for `iterative`.
 	bool prefersIterative(const LinearProblem& K);
 
-	/// Whether it will be solved as it is over nodes, without being compressed.
+	/// True if it will be solved as it is over nodes, without being compressed.
 	static bool staysOverNodes(LinearMethod, const LinearProblem& K);
 	bool        isIterative(LinearMethod method, const LinearProblem& K)
 	{

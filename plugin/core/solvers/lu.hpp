@@ -7,7 +7,7 @@ namespace gimpm {
 
 class Lu {
 public:
-	/// How much less than a row that is left for it MUMPS' threshold lets a pivot be.
+	/// Least pivot that MUMPS' threshold admits, over the row that is left for it.
 	static constexpr double pivotOfRow = 0.01;
 
 	Lu() = default;

@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-// What MUMPS is told to do, and positions of its controls and results, counted from 0.
+// Jobs of MUMPS, and positions of its controls and results, counted from 0.
 enum Job { begin = -1, end = -2, analyse = 1, factorisation = 2, solution = 3 };
 enum Control {
 	errors,

@@ -7,19 +7,20 @@
 
 namespace gimpm {
 
-/// Of matrices with a symmetric pattern and a diagonal of about one: L U or, of a symmetric one that is given by one of
-/// its triangles, L D L^T with D of any signs. The pattern is analysed once, for all matrices that have it.
+/// Factorisation of matrices with a symmetric pattern and a diagonal of about one: L U or, of a symmetric one that is
+/// given by one of its triangles, L D L^T with D of any signs. The pattern is analysed once, for all matrices that have
+/// it.
 class Multifrontal {
 public:
 	enum class Form { general, triangle };
 
-	/// With an ordering of rows and columns: the number of each in K.
+	/// Analyses with an ordering of rows and columns: the number of each in K.
 	Multifrontal(const Csc& K, Form, const int* ordering);
 	~Multifrontal();
 	Multifrontal(const Multifrontal&)            = delete;
 	Multifrontal& operator=(const Multifrontal&) = delete;
 
-	/// Of a matrix with the pattern that was analysed. False if a row that is left for a pivot is below
+	/// Factorises a matrix with the pattern that was analysed. False if a row that is left for a pivot is below
 	/// `smallestRow` of the largest of K, or if the memory does not suffice.
 	bool factorise(const Csc& K, double smallestRow);
 

@@ -6,9 +6,9 @@
 
 namespace gimpm {
 
-/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns
-/// and are not too different. Where processes share the matrix all of them call each function, and it has the rows of
-/// this one.
+/// Multigrid preconditioner of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as
+/// they have the same unknowns and are not too different. Where processes share the matrix all of them call each
+/// function, and it has the rows of this one.
 class Multigrid : public Preconditioner {
 public:
 	/// The file of the library, by default mpm_petsc.so beside the one that holds the core.
@@ -23,7 +23,8 @@ public:
 
 	bool fits(const NodeProblem&) const;
 
-	/// Of vectors as the product with the matrix has them, with zeros for the constrained degrees of freedom.
+	/// Applies it to vectors like those of the product with the matrix, with zeros for the constrained degrees of
+	/// freedom.
 	std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const override;
 
 private:

@@ -5,7 +5,7 @@
 namespace gimpm {
 
 namespace {
-/// What to add to a node's key to get the key of the node at this offset.
+/// Difference between the key of the node at this offset and a node's own key.
 template <int Dim> Key keyOffset(int code)
 {
 	constexpr int centre = (Dim == 2 ? 25 : 125) / 2;

@@ -33,10 +33,10 @@ public:
 	void setZero();
 	void multiplyBy(double factor);
 
-	/// Of each node its number at each offset to nodes b >= a; -1: there is none.
+	/// Number of each node's neighbour at each offset to nodes b >= a; -1: there is none.
 	static std::vector<int> neighboursOf(const std::vector<Key>& nodes, const Grid<Dim>&);
 
-	/// Whether there are blocks of this node, which rows or columns that are wanted may need. Others are neither
+	/// True if there are blocks of this node, which rows or columns that are wanted may need. Others are neither
 	/// read nor written.
 	bool keeps(int node) const { return unsigned(node) - unsigned(kept_.first) < unsigned(kept_.second - kept_.first); }
 

@@ -181,7 +181,7 @@ private:
 		if (couplings_) keepOnce(graph);
 		return graph;
 	}
-	/// Of each node, neighbours that it is coupled to by several fields are left in the graph once.
+	/// Keeps neighbours of each node that it is coupled to by several fields in the graph once.
 	static void keepOnce(NodeGraph& graph)
 	{
 		std::vector<int> seen(graph.positions.size(), -1);

@@ -11,7 +11,7 @@
 
 namespace gimpm {
 
-/// Which components of which nodes are free.
+/// Free components of the nodes.
 struct Unknowns {
 	std::vector<Key>  nodes;
 	std::vector<bool> isFree; ///< Dim a node
@@ -19,7 +19,7 @@ struct Unknowns {
 	bool operator==(const Unknowns& other) const { return nodes == other.nodes && isFree == other.isFree; }
 };
 
-/// Of 2D and 3D alike.
+/// Problem in 2D and 3D alike.
 struct NodeProblem {
 	virtual ~NodeProblem() = default;
 
@@ -27,16 +27,16 @@ struct NodeProblem {
 
 	virtual bool isInSpace() const = 0;
 
-	/// Of several fields there are no blocks.
+	/// Problems of several fields have no blocks.
 	virtual bool isOfOneField() const = 0;
-	/// Whether rows of a field are those of its negative (Field::sign), so that the matrix cannot be positive
+	/// True if rows of a field are those of its negative (Field::sign), so that the matrix cannot be positive
 	/// definite.
 	virtual bool hasSigns() const = 0;
 
-	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the constrained ones; where
-	/// processes share the matrix, for the rows of this one.
+	/// Blocks of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the constrained ones;
+	/// where processes share the matrix, for the rows of this one.
 	virtual std::unique_ptr<SymmetricOperator> blocks() const = 0;
-	/// Of the free degrees of freedom.
+	/// Expands a vector of the free degrees of freedom.
 	virtual Eigen::VectorXd expanded(const Eigen::VectorXd& x) const = 0;
 	/// The way back; all processes call it.
 	virtual Eigen::VectorXd ofFreeDofs(Eigen::VectorXd x) const = 0;
@@ -46,10 +46,10 @@ struct NodeProblem {
 	virtual Unknowns                unknowns() const   = 0;
 	virtual const OwnedNodes&       ownedNodes() const = 0; ///< of the rows
 
-	/// Whether a factor takes more operations for each entry of a triangle, by the positions of the nodes alone.
+	/// True if a factor takes more operations for each entry of a triangle, by the positions of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
 
-	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries,
+	/// Order of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries,
 	/// whatever the matrix's values.
 	virtual Order ordering() const = 0;
 };

@@ -60,7 +60,7 @@ private:
 		bool          isCoupled = false;   ///< by couplings, which add to what neighbours have
 		const double* opposite  = nullptr; ///< K_ba of couplings that are not symmetric
 
-		/// With this part of what K_ba^T differs from K_ab by, if it is K_ba.
+		/// Entry with this part of the difference between K_ba^T and K_ab, if it is K_ba.
 		double at(int i, int j, double part) const
 		{
 			if (opposite) return part * values[Dim * i + j] + (1 - part) * opposite[Dim * j + i];
@@ -75,8 +75,8 @@ private:
 	bool isOwn(int row) const { return row >= begin_ && row < end_; }
 	int  firstOf(int n) const { return first_[n - begin_]; }
 
-	/// That of a constrained component is as large as its neighbours', whose unknowns multigrid takes together with
-	/// it.
+	/// Diagonal of a component; that of a constrained one is as large as its neighbours', whose unknowns multigrid
+	/// takes together with it.
 	double diagonalOf(int node, int axis) const
 	{
 		const double diagonal = K_.at(node, 0)[axis * Dim + axis];

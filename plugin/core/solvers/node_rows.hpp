@@ -17,7 +17,8 @@ struct NodeRows {
 	std::vector<int>    dof;   ///< of each row, among all unknowns
 	std::vector<int>    start, column;
 	std::vector<double> value;
-	/// Of (K + K^T) / 2, in the same positions; empty where K is symmetric. Of several fields see fieldRows().
+	/// Values of (K + K^T) / 2, in the same positions; empty where K is symmetric. For several fields see
+	/// fieldRows().
 	std::vector<double> symmetricPart;
 	struct Held {
 		int    row;
@@ -38,7 +39,7 @@ template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, cons
 /// there are any, which a process without rows hears from the others.
 std::string obstacleTo(const std::optional<NodeRows>&, const OwnedNodes&, bool& hasPositions);
 
-/// What rows have that there are none of, where other processes have some.
+/// Numbers of rows, also where this process has none and others have some.
 inline const double* numbersOf(const std::vector<double>& numbers, bool areThere)
 {
 	static const double none = 0;

@@ -73,7 +73,7 @@ template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& do
 	});
 }
 
-/// Of all of them.
+/// Calls f for all entries.
 template <int Dim, class F> void forEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, F&& f)
 {
 	if (dofs.affineConstraints) forTiedEntries(K, dofs, f);
@@ -150,7 +150,7 @@ template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs
 	addUpEqual(out);
 }
 
-/// Of the displacements of a node, its rows and those of its neighbours, which rise.
+/// Appends a column for a displacement of a node, from its rows and those of its neighbours, which rise.
 template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& dofs, int node, int i, Csc& out)
 {
 	for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
@@ -166,8 +166,8 @@ template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& d
 	}
 }
 
-/// Of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of the column below it.
-/// Fields below the first are left out.
+/// Appends couplings of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of
+/// the column below it. Fields below the first are left out.
 void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& fieldNode, int i, Csc& out, int firstField = 0)
 {
 	const DofMap& map   = K.map();
@@ -185,8 +185,8 @@ void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& 
 	});
 }
 
-/// Of the displacements of a node with couplings among them: rows of neighbours and of nodes that are coupled, both of
-/// which rise. Of the block on the diagonal the part below it is taken.
+/// Appends a column for a displacement of a node with couplings among them: rows of neighbours and of nodes that are
+/// coupled, both of which rise. The block on the diagonal contributes its part below the diagonal.
 template <int Dim> void appendMerged(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings& couplings, int node, int i, Csc& out)
 {
 	const auto append = [&](int b, const double* k, const double* coupled) {

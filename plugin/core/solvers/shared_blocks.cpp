@@ -71,7 +71,7 @@ template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K,
 	}
 }
 
-/// Of the nodes that are here what this process has, and what others have of their nodes.
+/// Fetches values at the nodes that are here: those of this process, and from others those of their nodes.
 template <int Dim> void SharedBlocks<Dim>::fetch(const Eigen::VectorXd& x) const
 {
 	x_.segment(Dim * (ownedNodes_.first() - here_.first), x.size()) = x;

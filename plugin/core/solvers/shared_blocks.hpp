@@ -11,7 +11,7 @@ namespace gimpm {
 /// pair of own nodes is read once, as in one process, and each pair of an own node and another one by both processes.
 template <int Dim> class SharedBlocks : public SymmetricOperator {
 public:
-	/// With vectors of Dim components for each own node. Its processes must outlive it.
+	/// Operator on vectors of Dim components for each own node. Its processes must outlive it.
 	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const OwnedNodes&, const Couplings* = nullptr);
 
 	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
@@ -23,7 +23,7 @@ public:
 private:
 	using Range = typename NodeMatrix<Dim>::Range;
 
-	/// With another process.
+	/// Border with another process.
 	struct Border {
 		/// Nodes that the one needs of the other, which both know from their own rows.
 		std::vector<int> own, others;
@@ -37,7 +37,7 @@ private:
 	const OwnedNodes ownedNodes_; // of its own: multigrid goes on with it in later steps
 	Range            here_;       ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim> blocks_;
-	/// Of couplings, in the rows of own nodes, by positions among those that are here.
+	/// Couplings in the rows of own nodes, by positions among those that are here.
 	std::vector<MatrixEntry>      entries_;
 	mutable std::map<int, Border> borders_; ///< by process
 	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here

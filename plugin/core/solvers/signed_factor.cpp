@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-// Of the BLAS.
+// BLAS functions.
 extern "C" void dgemm_(
         const char* transposedA, const char* transposedB, const int* rows, const int* columns, const int* inner, const double* alpha, const double* A,
         const int* strideA, const double* B, const int* strideB, const double* beta, double* C, const int* strideC);
@@ -86,7 +86,7 @@ public:
 				for (int i = 0; i < rows; ++i)
 					out[i] = i < count ? a[i] : 0;
 	}
-	/// Of the rows that were taken last and a tile of columns from `first` on.
+	/// Product of the rows that were taken last and a tile of columns from `first` on.
 	void multiply(int first, Tile& product) const
 	{
 		Four          sum[columns][2] = {};
@@ -105,14 +105,14 @@ private:
 	std::vector<double> left_, right_;
 };
 
-/// What is below the diagonal, or above it, transposed: then it has the same pattern.
+/// Side below the diagonal, or the one above it, transposed: then it has the same pattern.
 struct Side {
 	const EntryDestinations& entries;
 	double*                  values; // of the factor
 };
 
-/// Of a symmetric matrix with one side, of another one with two, of which each takes its products with the other one.
-/// The diagonal belongs to the first.
+/// Factorisation of a symmetric matrix with one side, of another one with two, of which each takes its products with
+/// the other one. The diagonal belongs to the first.
 class Factorisation {
 public:
 	Factorisation(const Supernodes& L, std::vector<Side> sides, const std::vector<double>& values, Eigen::VectorXd& signs)
@@ -151,7 +151,7 @@ private:
 	int     otherThan(int side) const { return sides() - 1 - side; }
 	double* blockOf(int side, int s) const { return sides_[side].values + L_.valuesBegin[s]; }
 
-	/// With the entries of the matrix.
+	/// Begins a supernode with the entries of the matrix.
 	void begin(int s)
 	{
 		for (int i = 0; i < L_.height(s); ++i)
@@ -165,7 +165,7 @@ private:
 		}
 	}
 
-	/// What an earlier supernode d has in the columns of s.
+	/// Subtracts what an earlier supernode d has in the columns of s.
 	void takeAway(int d, int s)
 	{
 		const int  height = L_.height(d), begin = taken_[d];
@@ -208,7 +208,7 @@ private:
 	}
 	double* column(int side, int s, int c) const { return blockOf(side, s) + std::ptrdiff_t(into_[c]) * L_.height(s); }
 
-	/// By the BLAS, which may have several threads for it.
+	/// Subtracts by the BLAS, which may have several threads for it.
 	void subtractLarge(int side, const double* a, const double* b, int stride, int rows, int columns, int inner, const double* signs, int s)
 	{
 		constexpr int few = 64; // columns at once

@@ -8,9 +8,9 @@
 
 namespace gimpm {
 
-/// Where entries of a matrix go among the values of a supernodal factor of its pattern, supernode by supernode.
+/// Destinations of entries of a matrix among the values of a supernodal factor of its pattern, supernode by supernode.
 struct EntryDestinations {
-	/// Of a matrix that is given by its upper triangle, or what of another one is below the diagonal of the factor,
+	/// Part of a matrix: its upper triangle, or what of an unsymmetric one is below the diagonal of the factor,
 	/// with it, or above, transposed.
 	enum class Part { triangle, below, above };
 	struct Entry {

@@ -27,9 +27,9 @@ cholmod_sparse upper(const Csc& K)
 	return A;
 }
 
-/// Of unknowns that follow each other in the order and are coupled to the same ones, as those of a node mostly are, how
-/// many there are. Rows are compared by sums of numbers that look random: where different ones have the same sum,
-/// all of these unknowns count as coupled to what one of them is.
+/// Numbers of unknowns that follow each other in the order and are coupled to the same ones, as those of a node mostly
+/// are. Rows are compared by sums of numbers that look random: where different ones have the same sum, all of these
+/// unknowns count as coupled to what one of them is.
 std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
 {
 	const auto mixed = [](std::uint64_t x) { // as of SplitMix64
@@ -52,8 +52,8 @@ std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
 	return widths;
 }
 
-/// Which nodes are coupled by an entry, as an upper triangle in the order of elimination. Of each node so many unknowns
-/// follow each other in the given order.
+/// Pattern of the nodes that an entry couples, as an upper triangle in the order of elimination. Each node's unknowns,
+/// so many, follow each other in the given order.
 cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths, cholmod_common& common)
 {
 	const int        count = int(widths.size());
@@ -88,7 +88,7 @@ cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, cons
 	return pattern;
 }
 
-/// What CHOLMOD keeps of supernodes: first columns, first rows, first values, and rows.
+/// Supernodes of CHOLMOD: first columns, first rows, first values, and rows.
 struct SupernodesOf {
 	std::vector<int> columns { 0 }, rowsBegin { 0 }, valuesBegin { 0 }, rows {};
 	std::size_t      values = 0, largestUpdate = 0, below = 1;

@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// Of matrices given by their upper triangles; entries below are ignored, but by factoriseGeneral().
+/// Supernodal factor of matrices given by their upper triangles; entries below are ignored, but by factoriseGeneral().
 class SupernodalFactor {
 public:
 	SupernodalFactor();
@@ -23,10 +23,10 @@ public:
 	bool   isAnalysed() const { return factor_; }
 	double entries() const { return common_.lnz; }
 	double flops() const { return common_.fl; }
-	/// Of rows and columns: the number of each in K.
+	/// Order of rows and columns: the number of each in K.
 	const int* ordering() const { return static_cast<const int*>(factor_->Perm); }
 
-	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
+	/// Factorises a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);
 	/// L S L^T with a sign for each row; false if a pivot is smaller than a part `smallest` of the largest one.
 	bool factoriseSigned(const Csc& K, double smallest);
@@ -37,7 +37,7 @@ public:
 	double rcond() { return cholmod_rcond(factor_, &common_); }
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_A, b, x); }
 
-	/// With the factor of factoriseSigned() or factoriseGeneral(), for the matrix or its transpose.
+	/// Solves with the factor of factoriseSigned() or factoriseGeneral(), for the matrix or its transpose.
 	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed = false);
 
 	/// L x = b and L^T x = b, in the order of the factor.

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Of a matrix that several processes share each has some rows, and of vectors the same.
+/// Product with a symmetric matrix. Where several processes share it each has some rows, and those of vectors.
 struct SymmetricOperator {
 	virtual ~SymmetricOperator() = default;
 
@@ -17,7 +17,7 @@ struct SymmetricOperator {
 	/// |x| of all rows.
 	virtual double norm(const Eigen::VectorXd& x) const { return x.stableNorm(); }
 
-	/// Of sums over the rows that are here makes those over all rows.
+	/// Makes sums over the rows that are here those over all rows.
 	virtual void complete(double* /*sums*/, int /*count*/) const { }
 };
 
