@@ -139,7 +139,7 @@ namespace {
 			const auto error = [&] {
 				system.prepare(K, &beside);
 				EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
-				Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
+				Eigen::VectorXd free(system.dofs.count), tangent(system.dofs.count);
 				for (int i = 0; i < d.size(); ++i)
 					if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], tangent[n] = (plus[i] - minus[i]) / (2 * e);
 				return (reduced(K, system.dofs, &beside) * free - tangent).norm() / tangent.norm();

@@ -55,7 +55,7 @@ namespace {
 		void compareTangent(double friction, double cap = 1e9, double closed = 0) const
 		{
 			const Force     f = at(now, friction, cap, closed);
-			Eigen::MatrixXd slope(Force::size, Force::size);
+			Eigen::MatrixXd tangent(Force::size, Force::size);
 			for (int i = 0; i < Force::size; ++i) {
 				Places plus = now, minus = now;
 				plus[i / Dim][i % Dim] += 1e-6, minus[i / Dim][i % Dim] -= 1e-6;
@@ -136,9 +136,9 @@ namespace {
 		for (auto& x : turned)
 			x = turn * x;
 		const auto still = this->at(this->start, 10), after = this->at(turned, 10);
-		EXPECT_LT((after.shear - turn * still.shear).norm(), 1e-14);
+		EXPECT_LT((after.tangentialForce - turn * still.tangentialForce).norm(), 1e-14);
 		EXPECT_LT(after.slip.norm(), 1e-14);
-		EXPECT_GT(still.shear.norm(), .03);
+		EXPECT_GT(still.tangentialForce.norm(), .03);
 	}
 
 	TYPED_TEST(BodyPairTest, NothingPullsTogether)

@@ -66,7 +66,7 @@ namespace {
 					Loaded<Dim> block(kind, friction, isRing);
 					block.contacts.free[0].inertia.setIdentity();
 					block.contacts.free[0].inertia *= inertia;
-					if (kind == RigidKind::ball && inertia == 0) block.contacts.free[0].push[0] = 0; // it would roll
+					if (kind == RigidKind::ball && inertia == 0) block.contacts.free[0].externalLoad[0] = 0; // it would roll
 					EXPECT_LT(block.tangentError(), 1e-6) << int(kind) << " " << friction << " " << inertia;
 				}
 	}
@@ -83,8 +83,8 @@ namespace {
 		Vec<Dim> reaction = Vec<Dim>::Zero();
 		for (const auto& box : block.report.reactions)
 			reaction += box.template head<Dim>();
-		EXPECT_LT((reaction + block.contacts.free[0].push.template head<Dim>()).norm(), 1e-9 * 2e4);
-		EXPECT_LT((block.contacts.loads[0].force.template head<Dim>() + block.contacts.free[0].push.template head<Dim>()).norm(), 1e-9 * 2e4);
+		EXPECT_LT((reaction + block.contacts.free[0].externalLoad.template head<Dim>()).norm(), 1e-9 * 2e4);
+		EXPECT_LT((block.contacts.loads[0].force.template head<Dim>() + block.contacts.free[0].externalLoad.template head<Dim>()).norm(), 1e-9 * 2e4);
 	}
 
 	/// In the air it moves by its inertia alone; without it has no equilibrium.
