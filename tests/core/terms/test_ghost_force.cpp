@@ -86,11 +86,11 @@ namespace {
 	/// Kinks of what it begins from cost nothing.
 	TYPED_TEST(GhostForce, CountsFromWhatItIsGiven)
 	{
-		constexpr int                Dim  = TypeParam::value;
-		const auto                   body = ragged<Dim>();
-		Random                       random(4);
-		const Eigen::VectorXd        from = random.vector(Dim * int(body.basis.nodes.size())), d = random.vector(int(from.size()));
-		const gimpm::GhostForce<Dim> ghost(body.faces, body.grid.cellSize, from);
+		constexpr int          Dim  = TypeParam::value;
+		const auto             body = ragged<Dim>();
+		Random                 random(4);
+		const Eigen::VectorXd  from = random.vector(Dim * int(body.basis.nodes.size())), d = random.vector(int(from.size()));
+		gimpm::GhostForce<Dim> ghost(body.faces, body.grid.cellSize, from);
 		for (const auto& [at, expected] : { std::pair(from, Eigen::VectorXd(0 * from)), std::pair(d, body.force(d - from)) }) {
 			Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
 			ghost.add(at, { force });
