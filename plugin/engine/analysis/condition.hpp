@@ -36,9 +36,10 @@ template <int Dim> struct Surroundings {
 
 // The step that comes next.
 struct StepTime {
-	Real from, to;                                       // load times
-	Real looked;                                         // when loads are looked at: at its end, or with the midpoint rule in its middle
-	Real energy = std::numeric_limits<Real>::infinity(); // energy that has come in before a time step [J]; infinity: another step
+	Real            from, to; // load times
+	Real            looked;   // when loads are looked at: at its end, or with the midpoint rule in its middle
+	gimpm::StepKind kind   = gimpm::StepKind::quasiStatic;
+	Real            energy = 0; // energy that has come in before a time step [J]
 };
 
 // A step that has been accepted.
