@@ -22,12 +22,12 @@ namespace {
 					const Vec<Dim> u = d.template segment<Dim>(Dim * patch.node[n]);
 					value[basis.order[i]] += weight[n] * u;
 					for (int a = 0; a < Dim; ++a) {
-						double gradient = 1;
+						double along = 1;
 						for (int b = 0, rest = n; b < Dim; rest /= patch.nodesAlong(b), ++b) {
 							const auto& axis = basis.axes[i][b];
-							gradient *= b == a ? axis.gradient[rest % patch.nodesAlong(b)] : axis.value[rest % patch.nodesAlong(b)];
+							along *= b == a ? axis.gradient[rest % patch.nodesAlong(b)] : axis.value[rest % patch.nodesAlong(b)];
 						}
-						gradient[basis.order[i]].col(a) += gradient * u;
+						gradient[basis.order[i]].col(a) += along * u;
 					}
 				}
 			});

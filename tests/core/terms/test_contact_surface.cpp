@@ -31,13 +31,13 @@ namespace {
 	/// to Dim times the volume.
 	template <int Dim> struct Sums {
 		double   area = 0, volume = 0;
-		Vec<Dim> normal = Vec<Dim>::Zero(), place = Vec<Dim>::Zero();
+		Vec<Dim> normal = Vec<Dim>::Zero(), position = Vec<Dim>::Zero();
 
 		explicit Sums(const std::vector<SurfacePoint<Dim>>& points)
 		{
 			for (const auto& p : points) {
 				EXPECT_NEAR(p.normal.norm(), 1, 1e-14);
-				area += p.area, normal += p.area * p.normal, place += p.area * p.position, volume += p.area * p.position.dot(p.normal) / Dim;
+				area += p.area, normal += p.area * p.normal, position += p.area * p.position, volume += p.area * p.position.dot(p.normal) / Dim;
 			}
 		}
 	};

@@ -79,7 +79,7 @@ namespace {
 			wall.motion.setConstant(0.01);
 			StepReport            report;
 			const StepSystem<Dim> system(scene.cloud, scene.model, {}, report);
-			const auto&           term = *system.terms.back();
+			auto&                 term = *system.terms.back();
 			const Eigen::VectorXd d    = Random(3).vector(system.nodalSize(), 0.05);
 			NodeMatrix<Dim>       K;
 			Eigen::VectorXd       f = Eigen::VectorXd::Zero(d.size()), zero = f;

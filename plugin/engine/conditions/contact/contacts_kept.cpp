@@ -26,8 +26,8 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		if (body == numbers.end()) return; // erased
 		const gimpm::Vec<Dim> tangentialForce = r.tangentialForce.template head<Dim>(), normal = r.normal.template head<Dim>(),
 		                      place = r.position.template head<Dim>();
-		system->records.push_back(
-		        { body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.areaFraction, r.travel, r.creep, friction, normal, place });
+		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.areaFraction, r.travel, r.creep,
+		                            tangentialForce, normal, place });
 	});
 }
 
