@@ -7,6 +7,7 @@ import re
 import shlex
 
 import pages
+import studies
 
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 examples = os.path.join(root, 'examples')
@@ -176,20 +177,10 @@ def table(rows):
 	return pages.table(['what', 'ours', 'theirs', 'difference', 'theirs is of', 'command'], lines)
 
 
-INTRODUCTION = '''# Validation
-
-Every closed form, experiment and published number that the examples are held against, {count} of them: ours, theirs, the difference, whose it is, and the command that gives it again. Half of the differences are below {median}, nine of ten below {most}. Grids are those of the pages of
-the examples, often coarse: what finer ones give is there. Large differences are not left out: see *Contact and penetration*, and *Waves and run-out*.
-
-`scripts/validate` writes this page from the tables that the examples keep, `compared.csv` in their folders, and from those of [the paper](../../examples/paper/README.md) and of [splitting](../../examples/splitting/README.md); `scripts/validate --run` makes those tables anew, in a quarter of an hour.
-
-![Differences by group](validation.png)
-'''
-
 STUDIES = '''## In studies of their own
 
-The same answers on many grids: [discretisation](../../examples/discretisation/README.md) (errors and their estimates), [trade](../../examples/trade/README.md) (errors and what they cost), [extremes](../../examples/extremes/README.md) (2,347 cases), [load_steps](../../examples/load_steps/README.md),
-[two_sizes](../../examples/two_sizes/README.md), and [contact, case by case](contacts.md) by `scripts/contacts`.
+The same answers on many grids: [discretisation](../../../examples/discretisation/README.md) (errors and their estimates), [trade](../../../examples/trade/README.md) (errors and what they cost), [extremes](../../../examples/extremes/README.md) (2,347 cases), [load_steps](../../../examples/load_steps/README.md),
+[two_sizes](../../../examples/two_sizes/README.md), and [contact, case by case](contacts.md) by `scripts/contacts`.
 '''
 
 TESTS = '''## In the tests
@@ -201,9 +192,9 @@ TESTS = '''## In the tests
 def page(found):
 	rows = [row for of in found.values() for row in of]
 	sizes = sorted(abs(difference(row)) for row in rows)
-	parts = [INTRODUCTION.format(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))]
+	parts = [studies.conclusionOf('validation', dict(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))), '']
 	for group, folders in groups.items():
-		links = ', '.join(f'[{folder}](../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../examples/README.md#tasks)'
+		links = ', '.join(f'[{folder}](../../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../../examples/README.md#tasks)'
 		parts += [f'## {group}\n', f'From {links}.\n', table(row for folder in folders for row in found[folder]), '']
 	forms, files = closedForms(), {test: file for file, test, _ in ofTests()}
 	listed = pages.table(['test', 'held against', 'file'], [(f"`{row['test']}`", escaped(row['against']), f"`{files[row['test']]}`") for row in forms])

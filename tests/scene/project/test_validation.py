@@ -19,7 +19,7 @@ others = {'discretisation', 'trade', 'extremes', 'two_sizes', 'load_steps', 'spl
 
 
 def test_the_page_is_what_the_tables_say():
-	assert (root / 'plugin/docs/validation.md').read_text() == validation.page(validation.everything())
+	assert (root / 'plugin/docs/studies/validation.md').read_text() == validation.page(validation.everything())
 
 
 def test_each_run_has_rows_and_each_row_a_run():
@@ -60,7 +60,7 @@ def test_a_run_gives_again_what_is_kept(yade, tmp_path):
 	again, kept = validation.kept('column', tmp_path), validation.kept('column')
 	assert [row['quantity'] for row in again] == [row['quantity'] for row in kept]
 	assert all(float(row['ours']) == pytest.approx(float(other['ours']), rel=1e-6) for row, other in zip(again, kept))
-	assert (tmp_path / 'validation.md').exists() and (tmp_path / 'validation.png').stat().st_size > 20000
+	assert (tmp_path / 'validation.md').exists() and (tmp_path / 'validation' / 'validation.png').stat().st_size > 20000
 
 
 def test_wrong_arguments_are_refused():

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pages of the studies: each is what its conclusion and its kept tables say."""
+import sys
+
+import pytest
+from conftest import root
+
+sys.path.insert(0, str(root / 'scripts' / 'lib'))
+import studies
+
+home = root / 'plugin/docs/studies'
+
+
+def test_pages_are_what_the_tables_say():
+	written = [study for study in studies.names() if studies.indexOf(study)]
+	assert len(written) >= 4
+	for study in written: assert (home / f'{study}.md').read_text() == studies.page(study), study
+
+
+def test_each_table_and_picture_of_a_study_is_on_its_page():
+	for study in studies.names():
+		index = {row['file'] for row in studies.indexOf(study)}
+		assert index == {path.name for path in (home / study).glob('*.csv')} - {'tables.csv'}, study
+		assert all(row['title'] for row in studies.indexOf(study)) and len({row['title'] for row in studies.indexOf(study)}) == len(index), study
+		page = (home / f'{study}.md').read_text()
+		assert all(f']({study}/{path.name})' in page for path in (home / study).glob('*.png')), study
+	assert {path.stem for path in home.glob('*.md')} == set(studies.names())
+
+
+def test_tables_have_as_many_cells_in_each_row():
+	for path in home.glob('*/*.csv'):
+		assert len({len(row) for row in studies.rowsOf(path)}) == 1, path
+
+
+def test_a_table_that_is_kept_again_stays_in_its_place(tmp_path, monkeypatch):
+	monkeypatch.setattr(studies, 'home', str(tmp_path))
+	for title in 'First', 'Second': studies.keep('a', f'{title.lower()}.csv', title, '`scripts/a`', [['case', 'N'], ['x | y', '1']])
+	studies.keep('a', 'first.csv', 'First', '`scripts/a`', [['case', 'N'], ['x | y', '2']])
+	(tmp_path / 'a/conclusion.md').write_text('# A\n\nIt holds ([b](../../b.md#c), [here](#first), [web](https://c)).\n\n![Curve](c.png)\n')
+	page = studies.page('a')
+	assert page.index('### First') < page.index('### Second') and '| x \\| y | 2 |' in page
+	assert '([b](../b.md#c), [here](#first), [web](https://c))' in page and '![Curve](a/c.png)' in page
+	assert studies.tablesOf(page)[0] == ('First', '`scripts/a`', [['case', 'N'], ['x | y', '2']])
+
+
+def test_conclusions_are_short_and_have_a_title(tmp_path, monkeypatch):
+	monkeypatch.setattr(studies, 'home', str(tmp_path))
+	(tmp_path / 'a').mkdir()
+	for text, said in ('No title', 'begins with'), ('# A\n' + 'word ' * 600, 'at most 600'):
+		(tmp_path / 'a/conclusion.md').write_text(text)
+		with pytest.raises(ValueError, match=said): studies.page('a')
