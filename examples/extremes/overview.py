@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the page of examples/extremes that fits on a screen, its figure, and the page of details, from the kept table: `examples/extremes/overview.py`."""
+"""Writes the page of examples/extremes that fits on a screen, its figure, and the page of the study, from the kept table: `examples/extremes/overview.py`."""
 import math
 import os
 import textwrap
@@ -93,7 +93,7 @@ def compared(rows):
 def introduction(rows):
 	return f'''# Stability at the extremes
 
-{len(listed())} parameters, driven until the method breaks down: {len(rows):,} cases by `scripts/extremes`, in 2D and 3D, without ghost stabilisation, with it (mesh-independent, h¹) and in the paper's scaling (h³). All cases: [details](details.md). Safe: it runs without a cut step, with an error of at most 5 % or three times the smallest.
+{len(listed())} parameters, driven until the method breaks down: {len(rows):,} cases by `scripts/extremes`, in 2D and 3D, without ghost stabilisation, with it (mesh-independent, h¹) and in the paper's scaling (h³). All cases: [study](../../plugin/docs/studies/extremes.md). Safe: it runs without a cut step, with an error of at most 5 % or three times the smallest.
 
 ## Run it
 
@@ -139,8 +139,8 @@ def write(folder):
 	rows = page.read(folder)
 	picture(rows, os.path.join(folder, 'ranges.png'))
 	pages.write(folder, [introduction(rows), '## Picture\n\n![How far each parameter can go](ranges.png)\n\n## Numbers\n', TABLE, limits(rows), '\n## What to change\n', text(rows)])
-	page.write(folder, 'details.md')
 
 
 if __name__ == '__main__':
 	write(here)
+	page.writeStudy(here)

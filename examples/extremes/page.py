@@ -11,6 +11,7 @@ from axes import axes, ghosts, groups
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 from pages import number, table
 
 names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, h³'}
@@ -156,40 +157,49 @@ def rangeTable(rows, present):
 	return table(['axis', 'parameter', '', *(names[g] for g in ghosts), 'seen where it does not run (cases)'], lines)
 
 
-def write(folder, name='README.md'):
-	rows = read(folder)
+def parts(rows, drawn, link=''):
+	"""Ranges, pictures, which are drawn into a folder, and all cases; link: the way to that folder."""
 	present = [name for name in axes if any(key[0] == name for key in rows)]
 	listed = [name for name in present if axes[name].listed]
-	parts = [INTRODUCTION]
+	found = []
 	if listed:
-		parts += [RANGES, rangeTable(rows, listed), '']
+		found += [RANGES, rangeTable(rows, listed), '']
 		for group, (title, members) in groups.items():
 			shown = [axis for axis in members if axis in listed]
 			if not shown: continue
-			pictures.outcomes(rows, title, shown, os.path.join(folder, f'outcomes-{group}.png'))
-			parts.append(f'![{title}: outcome of all cases](outcomes-{group}.png)\n')
+			pictures.outcomes(rows, title, shown, os.path.join(drawn, f'outcomes-{group}.png'))
+			found.append(f'![{title}: outcome of all cases]({link}outcomes-{group}.png)\n')
 	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
 	if curves:
-		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))
-		parts.append('![Condition numbers](condition.png)\n')
+		pictures.conditions(rows, curves, os.path.join(drawn, 'condition.png'))
+		found.append(f'![Condition numbers]({link}condition.png)\n')
 	if 'corner' in present:
-		pictures.cornerMaps(rows, os.path.join(folder, 'corner.png'))
-		parts.append('![Condition number against both overlaps of a corner](corner.png)\n')
-	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
-	parts.append('![Smallest pivot and error of a solve](pivots.png)\n')
-	if 'columnFactor' in present or 'slopeFactor' in present: parts.append(factorTable(rows))
-	if 'softeningGrid' in present: parts.append(bandTable(rows))
-	if 'sandSlope' in present: parts.append(sandTable(rows))
-	parts += pages.texts(os.path.join(here, 'findings.md'))
-	if listed: parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
-	pages.write(folder, parts, name)
+		pictures.cornerMaps(rows, os.path.join(drawn, 'corner.png'))
+		found.append(f'![Condition number against both overlaps of a corner]({link}corner.png)\n')
+	pictures.pivots(rows, os.path.join(drawn, 'pivots.png'))
+	found.append(f'![Smallest pivot and error of a solve]({link}pivots.png)\n')
+	if 'columnFactor' in present or 'slopeFactor' in present: found.append(factorTable(rows))
+	if 'softeningGrid' in present: found.append(bandTable(rows))
+	if 'sandSlope' in present: found.append(sandTable(rows))
+	if listed: found += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
+	return found
+
+
+def write(folder):
+	"""Of runs of one's own."""
+	pages.write(folder, [INTRODUCTION, *parts(read(folder), folder)])
+
+
+def writeStudy(folder, home=studies.home):
+	"""Of the kept runs."""
+	pages.write(home, [studies.conclusionOf('extremes'), '', *parts(read(folder), os.path.join(home, 'extremes'), 'extremes/')], 'extremes.md')
 
 
 INTRODUCTION = """# Stability at the extremes, in detail
 
 Each parameter below is driven to extremes until the method breaks down: without ghost stabilisation, with it (`factor=1e-2`) in its
 mesh-independent scaling h¹, and in the paper's h³, in 2D and 3D. `scripts/extremes` runs all of it and writes this page (see `--help`); the scenes
-are in `runs.py`, the values in `axes.py`, the numbers in `results/atlas.csv`. `examples/extremes/overview.py` writes the page that has the short of it.
+are in `runs.py`, the values in `axes.py`, the numbers in `results/atlas.csv`.
 
 Unless an axis says otherwise, the scene is an elastic column of 2 x 6 [x 2] cells of 0.1 m, 2 points per cell and axis, free at its sides, that
 its own weight compresses in 5 load steps (b l0 = E / 2, Poisson's ratio 0). Its vertical stress is known from equilibrium whatever the material,

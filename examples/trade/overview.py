@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the page of examples/trade that fits on a screen, its figure, and the page of details, from the kept tables: `examples/trade/overview.py`."""
+"""Writes the page of examples/trade that fits on a screen, its figure, and the page of the study, from the kept tables: `examples/trade/overview.py`."""
 import os
 import sys
 
@@ -99,7 +99,6 @@ def write(folder):
 	found = panels()
 	picture(found, os.path.join(folder, 'fronts.png'))
 	pages.write(folder, [introduction(), '## Picture\n\n![Error against cost, by scene](fronts.png)\n\n## Numbers\n', TABLE, answers(found), '\n## What to change\n', text(found)])
-	page.write(folder, plans, 'details.md')
 
 
 TABLE = '''**The cheapest setting for an error.** Processor time of the script, one thread; hundredths of a second scatter by a third; columns, cantilever, slope, block factorise in every iteration. Letters as in the figure, –: none, ": as to the left.
@@ -107,3 +106,4 @@ TABLE = '''**The cheapest setting for an error.** Processor time of the script, 
 
 if __name__ == '__main__':
 	write(here)
+	page.writeStudy(here, plans)

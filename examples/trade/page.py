@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 from pages import table
 
 targets = .1, .03, .01, .003
@@ -56,17 +57,17 @@ def errorLabel(plan):
 	return f"relative error of the {' and '.join(what)} [-]" + (',\nthe largest of them' if len(what) > 1 else '')
 
 
-def section(folder, name, plan):
+def section(folder, name, plan, drawn, link):
 	try:
 		runs, uncertainty = fronts.read(folder, name, plan)
 	except fronts.NoReference as reason:
 		return f'## {name}\n\n{reason}.\n'
 	front = fronts.front(runs)
 	if not front: return f'## {name}\n\nNo run has come to its end.\n'
-	picture(name, plan, runs, front, uncertainty, os.path.join(folder, name + '.png'))
+	picture(name, plan, runs, front, uncertainty, os.path.join(drawn, name + '.png'))
 	failed = [run for run in runs if run.failure]
 	parts = [
-	        f'## {name}\n', measureOf(plan, uncertainty), f'![Error against time]({name}.png)\n', answers(plan, runs, uncertainty), 'The front:\n',
+	        f'## {name}\n', measureOf(plan, uncertainty), f'![Error against time]({link}{name}.png)\n', answers(plan, runs, uncertainty), 'The front:\n',
 	        table(['error', 'time [s]', 'solves', 'memory [MiB]', 'setting'], [(f'{run.error:.2%}', f'{run.cpu:.2f}', f'{run.solves:.0f}', f'{run.memory:.0f}', described(run.setting, plan)) for run in front]) + '\n',
 	        knobs(plan, runs), dominated(plan, runs, front), others(plan, runs), threads(runs)
 	]
@@ -157,12 +158,20 @@ def estimates(folder):
 	return ESTIMATES + table(heads, lines) + f'\n\nTimes are within a factor of 2 in {within} of {len(rows)} scenes, and inside the range that was told in {inRange}.\n'
 
 
-def write(folder, plans, name='README.md'):
-	parts = [INTRODUCTION]
-	if 'column' in plans: parts += pages.texts(os.path.join(here, 'findings.md'))
-	parts += [section(folder, name, plan) for name, plan in plans.items()]
-	if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')): parts.append(estimates(folder))
-	pages.write(folder, parts, name)
+def parts(folder, plans, drawn, link=''):
+	"""A section for each scene, whose picture is drawn into a folder; link: the way to that folder."""
+	found = [section(folder, name, plan, drawn, link) for name, plan in plans.items()]
+	return found + ([estimates(folder)] if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')) else [])
+
+
+def write(folder, plans):
+	"""Of runs of one's own."""
+	pages.write(folder, [INTRODUCTION, *parts(folder, plans, folder)])
+
+
+def writeStudy(folder, plans, home=studies.home):
+	"""Of the kept runs."""
+	pages.write(home, [studies.conclusionOf('trade'), '', *parts(folder, plans, os.path.join(home, 'trade'), 'trade/')], 'trade.md')
 
 
 ESTIMATES = """## How well mpm.advise tells
@@ -176,5 +185,5 @@ INTRODUCTION = """# What accuracy costs, in detail
 
 `scripts/trade` runs a scene with many settings, each in a YADE process of its own, and writes this page (see `--help`; it does the same for a script
 of yours). Times are processor times of the whole script with one thread, without YADE's start; memory comes on top of YADE's own. The runs
-are in `results/`, the settings of the scenes in `plans.py`. `examples/trade/overview.py` writes the page that has the short of it.
+are in `results/`, the settings of the scenes in `plans.py`.
 """

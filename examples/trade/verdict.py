@@ -103,7 +103,7 @@ class Sand:
 def introduction():
 	return f'''# What accuracy costs
 
-What to set, and what not, from {sum(map(len, Kept().runs.values()))} runs by `scripts/trade` and the tables of other examples. All runs, and how they were measured: [details](details.md).
+What to set, and what not, from {sum(map(len, Kept().runs.values()))} runs by `scripts/trade` and the tables of other examples. All runs, and how they were measured: [study](../../plugin/docs/studies/trade.md).
 
 ## Run it
 
