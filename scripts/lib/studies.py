@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pages of the studies, plugin/docs/studies: a conclusion written by hand, and below it the kept tables. Run by itself it writes all of them, for scripts/validate and scripts that keep tables; needs nothing of YADE.
+"""Pages of the studies, plugin/docs/studies: a conclusion written by hand, and below it the kept tables. Needs nothing of YADE.
 
-A study NAME has a folder with conclusion.md, its pictures, tables (CSV), and tables.csv, which lists them in order: file, title, command (with day and revision) and note. NAME.md beside the folder is the page.
+	/usr/bin/python3 scripts/lib/studies.py                       all pages anew
+	/usr/bin/python3 scripts/lib/studies.py contacts out/contacts keeps the tables of a folder of results first
+
+A study NAME has a folder with conclusion.md, its pictures, tables (CSV), and tables.csv, which lists them in order: file, title, command (with day and revision) and note. NAME.md beside the folder is the page. Folders of results have the same
+tables and list. Where a study keeps cases.csv and earlier.csv, rows of new cases replace those of the same case, which go to earlier.csv.
 """
 import csv
 import os
 import re
+import shutil
+import sys
 
 import pages
 
@@ -31,40 +37,43 @@ def write(path, rows):
 		csv.writer(file, lineterminator='\n').writerows(rows)
 
 
-def indexOf(study, of=None):
-	"""Tables of a study, in order, as dictionaries of file, title, command and note."""
-	path = os.path.join(of or home, study, 'tables.csv')
+def indexOf(folder):
+	"""Tables of a folder, in order, as dictionaries of file, title, command and note."""
+	path = os.path.join(folder, 'tables.csv')
 	if not os.path.exists(path): return []
 	with open(path, newline='') as file:
 		return list(csv.DictReader(file))
 
 
-def keep(study, file, title, command, rows, note='', of=None):
+def keep(folder, file, title, command, rows, note=''):
 	"""Keep a table, rows with their head first, and list it where a table of that file is listed already, else last."""
-	write(os.path.join(of or home, study, file), rows)
-	index = indexOf(study, of)
+	write(os.path.join(folder, file), rows)
+	index = indexOf(folder)
 	entry = dict(file=file, title=title, command=command, note=note)
 	index = [entry if row['file'] == file else row for row in index] if any(row['file'] == file for row in index) else [*index, entry]
-	write(os.path.join(of or home, study, 'tables.csv'), [listed, *([row[name] for name in listed] for row in index)])
+	write(os.path.join(folder, 'tables.csv'), [listed, *([row[name] for name in listed] for row in index)])
 
 
-def tablesOf(text):
-	"""Tables of a page in Markdown as (heading, paragraphs between it and the table before, rows with their head first)."""
-	found, heading, between, lines = [], '', [], []
-	for line in [*text.splitlines(), '']:
-		if line.startswith('|'):
-			lines.append(line)
-			continue
-		if lines:
-			found.append((heading, '\n'.join(between).strip(), [cells(row) for number, row in enumerate(lines) if number != 1]))
-			lines, between = [], []
-		if line.startswith('#'): heading, between = line.lstrip('# '), []
-		else: between.append(line)
-	return found
+def renew(folder, rows):
+	"""Put rows of cases, their head first, in the place of those of the same cases, which go to the end of the earlier ones."""
+	paths = [os.path.join(folder, name) for name in ('cases.csv', 'earlier.csv')]
+	(head, *old), earlier = map(rowsOf, paths)
+	if rows[0] != head: raise ValueError(f'{folder}/cases.csv has the columns {head}, and not {rows[0]}: give rows of the same columns.')
+	new = {row[0]: row for row in rows[1:]}
+	write(paths[1], [*earlier, *(row for row in old if row[0] in new and row != new[row[0]])])
+	write(paths[0], [head, *(new.pop(row[0], row) for row in old), *new.values()])
 
 
-def cells(line):
-	return [cell.strip().replace('\\|', '|') for cell in re.split(r'(?<!\\)\|', re.sub(r'^\||\|$', '', line.strip()))]
+def take(study, results):
+	"""Keep the tables that a folder of results lists."""
+	folder, index = os.path.join(home, study), indexOf(results)
+	if not index: raise ValueError(f'{results} lists no tables: name a folder of results that has tables.csv.')
+	for row in index:
+		rows = rowsOf(os.path.join(results, row['file']))
+		if row['file'] == 'cases.csv' and os.path.exists(os.path.join(folder, 'earlier.csv')): renew(folder, rows)
+		else: keep(folder, row['file'], row['title'], row['command'], rows, row['note'])
+	for name in os.listdir(results):
+		if name.endswith('.png'): shutil.copy(os.path.join(results, name), folder)
 
 
 def markdown(rows):
@@ -87,9 +96,10 @@ def conclusionOf(study, values={}):
 def page(study, values={}, more=''):
 	"""Text of a page; more: what its own writer adds below."""
 	parts = [conclusionOf(study, values), '']
-	if index := indexOf(study): parts += ['## Tables', '', *(f"- [{row['title']}](#{anchor(row['title'])})" for row in index), '']
+	folder = os.path.join(home, study)
+	if index := indexOf(folder): parts += ['## Tables', '', *(f"- [{row['title']}](#{anchor(row['title'])})" for row in index), '']
 	for row in index:
-		parts += [f"### {row['title']}", '', *([row['command'], ''] if row['command'] else []), *([row['note'], ''] if row['note'] else []), markdown(rowsOf(os.path.join(home, study, row['file']))), '']
+		parts += [f"### {row['title']}", '', *([row['command'], ''] if row['command'] else []), *([row['note'], ''] if row['note'] else []), markdown(rowsOf(os.path.join(folder, row['file']))), '']
 	return '\n'.join(parts) + more
 
 
@@ -100,9 +110,10 @@ def anchor(title):
 def replaceAll():
 	"""Write all pages but those that have writers of their own."""
 	for study in names():
-		if indexOf(study): pages.replace(os.path.join(home, study + '.md'), page(study))
+		if indexOf(os.path.join(home, study)): pages.replace(os.path.join(home, study + '.md'), page(study))
 
 
 if __name__ == '__main__':
+	if len(sys.argv) == 3: take(*sys.argv[1:])
 	replaceAll()
 	print(f'written: {home}')

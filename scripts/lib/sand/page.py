@@ -2,8 +2,19 @@
 """The cases of scripts/sand as tables."""
 from math import isnan, log2
 
+import studies
+
 titles = dict(
-        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', rigid='The same in stiffer soil, at a settlement as much smaller', limit='One setting for N_gamma and steps', causes='What the dependence on steps is made of (smooth, 20 degrees, one point per cell)', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)', cuts='Condition numbers by the part of a cell that is filled')
+        factors='Strips over grids',
+        early='Strips of one point a cell at a settlement of 0.00025 B',
+        rigid='Strips in stiffer soil, at a settlement as much smaller',
+        limit='One setting for N_gamma and steps, all strips',
+        causes='Dependence on steps by cause, smooth, 20 degrees, one point a cell, all runs',
+        parts='Load of a strip by part of the method, smooth, 20 degrees',
+        steps='Load by number of steps, smooth, 20 degrees, 2 x 2 points',
+        walls='Smooth walls (Rankine)',
+        cuts='Condition numbers by cut')
+heads = ['case', 'setting', 'grid', 'exact', 'at a quarter', 'at the end', 'last tenth', 'iterations', 'cuts', 'points', 'seconds', 'ends by']
 
 
 def percent(value, exact):
@@ -19,45 +30,56 @@ def extrapolated(values):
 	return values[2] + second / (2**order - 1)
 
 
-def table(rows):
-	"""Table of one group, in Markdown."""
-	lines = ['| | | grid | exact | at a quarter | at the end | last tenth | iterations | cuts | points | seconds | |', '|---|---|---|---|---|---|---|---|---|---|---|---|']
+def loads(rows):
+	"""Of one group, head first."""
+	found = [heads]
 	for row in rows:
 		number = lambda name: float(row[name] or 'nan')
 		load = lambda name: '-' if isnan(number(name)) else f"{number(name):.4g} ({percent(number(name), number('exact'))})"
-		lines.append(f"| {row['case']} | {row['with']} | {row['grid']} | {number('exact'):.4g} | {load('quarter')} | {load('whole')} | {load('late')} | {row['iterations']} | {row['cuts']} | {row['points']} | {row['seconds']} | {row['why']} |")
-	return '\n'.join(lines) + '\n'
+		found.append([row['case'], row['with'], row['grid'], f"{number('exact'):.4g}", load('quarter'), load('whole'), load('late'), *(str(row[name]) for name in ('iterations', 'cuts', 'points', 'seconds', 'why'))])
+	return found
 
 
 def conditions(rows):
-	"""Lines by state and stabilisation, over the part of a cell that is filled."""
-	lines = []
-	for state in dict.fromkeys(row['case'] for row in rows):
-		of = [row for row in rows if row['case'] == state]
-		parts = list(dict.fromkeys(row['grid'] for row in of))
-		lines += [f"| {state} | {' | '.join(parts)} |", '|---' * (len(parts) + 1) + '|']
-		for name in dict.fromkeys(row['with'] for row in of):
-			found = {row['grid']: row['why'] or f"{float(row['condition']):.1e}" for row in of if row['with'] == name}
-			lines.append(f"| {name} | {' | '.join(found.get(part, '-') for part in parts)} |")
-		lines.append('')
-	return '\n'.join(lines)
+	"""Of one state, by stabilisation over the part of a cell that is filled, head first."""
+	parts = list(dict.fromkeys(row['grid'] for row in rows))
+	found = [['stabilisation', *parts]]
+	for name in dict.fromkeys(row['with'] for row in rows):
+		of = {row['grid']: row['why'] or f"{float(row['condition']):.1e}" for row in rows if row['with'] == name}
+		found.append([name, *(of.get(part, '-') for part in parts)])
+	return found
 
 
 def extrapolations(rows):
-	"""Table of strips that were run on three grids, in Markdown; empty if there are none."""
-	lines = []
+	"""Of cases that were run on three grids, head first."""
+	found = [['case', 'setting', 'at a quarter', 'at the end']]
 	for case, points in dict.fromkeys((row['case'], row['with']) for row in rows):
 		of = [row for row in rows if (row['case'], row['with']) == (case, points)]
 		if len(of) != 3: continue
 		ends = [extrapolated([float(row[name] or 'nan') for row in of]) for name in ('quarter', 'whole')]
-		lines.append(f"| {case} | {points} | {' | '.join(percent(end, float(of[0]['exact'])) for end in ends)} |")
-	return '\n'.join(['', '| extrapolated to cells of no size | | at a quarter | at the end |', '|---|---|---|---|', *lines, '']) if lines else ''
+		found.append([case, points, *(percent(end, float(of[0]['exact'])) for end in ends)])
+	return found
+
+
+def tables(rows):
+	"""(name, title, rows with their head first) of all groups."""
+	for group, title in titles.items():
+		of = [row for row in rows if row['group'] == group]
+		if not of: continue
+		if group == 'cuts':
+			for state in dict.fromkeys(row['case'] for row in of): yield f"cuts-{state.lower().replace(', ', '-')}", f'{title}, {state}', conditions([row for row in of if row['case'] == state])
+			continue
+		yield group, title, loads(of)
+		if group in ('factors', 'limit', 'walls') and len(limits := extrapolations(of)) > 1: yield f'{group}-limit', f'{title}, extrapolated to cells of no size', limits
 
 
 def page(rows, command, revision, day):
 	"""In Markdown, without what is said about it."""
 	lines = [f'`{command}`, {day}, revision {revision}.', '']
-	for group, title in titles.items():
-		if of := [row for row in rows if row['group'] == group]:
-			lines += [f'### {title}', '', conditions(of) if group == 'cuts' else table(of) + (extrapolations(of) if group in ('factors', 'limit', 'walls') else '')]
+	for _, title, of in tables(rows): lines += [f'### {title}', '', studies.markdown(of), '']
 	return '\n'.join(lines)
+
+
+def keep(rows, command, revision, day, folder):
+	"""As tables of the study of sand, in a folder of results."""
+	for name, title, of in tables(rows): studies.keep(folder, f'{name}.csv', title, f'`{command}`, {day}, revision {revision}', of)

@@ -12,16 +12,16 @@ home = root / 'plugin/docs/studies'
 
 
 def test_pages_are_what_the_tables_say():
-	written = [study for study in studies.names() if studies.indexOf(study)]
+	written = [study for study in studies.names() if studies.indexOf(home / study)]
 	assert len(written) >= 4
 	for study in written: assert (home / f'{study}.md').read_text() == studies.page(study), study
 
 
 def test_each_table_and_picture_of_a_study_is_on_its_page():
 	for study in studies.names():
-		index = {row['file'] for row in studies.indexOf(study)}
+		index = {row['file'] for row in studies.indexOf(home / study)}
 		assert index == {path.name for path in (home / study).glob('*.csv')} - {'tables.csv'}, study
-		assert all(row['title'] for row in studies.indexOf(study)) and len({row['title'] for row in studies.indexOf(study)}) == len(index), study
+		assert all(row['title'] for row in studies.indexOf(home / study)) and len({row['title'] for row in studies.indexOf(home / study)}) == len(index), study
 		page = (home / f'{study}.md').read_text()
 		assert all(f']({study}/{path.name})' in page for path in (home / study).glob('*.png')), study
 	assert {path.stem for path in home.glob('*.md')} == set(studies.names())
@@ -34,13 +34,24 @@ def test_tables_have_as_many_cells_in_each_row():
 
 def test_a_table_that_is_kept_again_stays_in_its_place(tmp_path, monkeypatch):
 	monkeypatch.setattr(studies, 'home', str(tmp_path))
-	for title in 'First', 'Second': studies.keep('a', f'{title.lower()}.csv', title, '`scripts/a`', [['case', 'N'], ['x | y', '1']])
-	studies.keep('a', 'first.csv', 'First', '`scripts/a`', [['case', 'N'], ['x | y', '2']])
+	keep = lambda title, N: studies.keep(tmp_path / 'a', f'{title.lower()}.csv', title, '`scripts/a`', [['case', 'N'], ['x | y', N]])
+	for title, N in ('First', '1'), ('Second', '1'), ('First', '2'): keep(title, N)
 	(tmp_path / 'a/conclusion.md').write_text('# A\n\nIt holds ([b](../../b.md#c), [here](#first), [web](https://c)).\n\n![Curve](c.png)\n')
 	page = studies.page('a')
 	assert page.index('### First') < page.index('### Second') and '| x \\| y | 2 |' in page
 	assert '([b](../b.md#c), [here](#first), [web](https://c))' in page and '![Curve](a/c.png)' in page
-	assert studies.tablesOf(page)[0] == ('First', '`scripts/a`', [['case', 'N'], ['x | y', '2']])
+
+
+def test_new_rows_of_a_case_replace_the_old_ones(tmp_path, monkeypatch):
+	"""Which are kept as earlier ones."""
+	monkeypatch.setattr(studies, 'home', str(tmp_path))
+	for folder, file, rows in ('a', 'cases.csv', [['x', '1'], ['y', '1']]), ('a', 'earlier.csv', []), ('out', 'cases.csv', [['y', '2'], ['z', '2']]):
+		studies.keep(tmp_path / folder, file, 'Cases', '`scripts/a`', [['case', 'N'], *rows])
+	studies.take('a', tmp_path / 'out')
+	assert studies.rowsOf(tmp_path / 'a/cases.csv')[1:] == [['x', '1'], ['y', '2'], ['z', '2']]
+	assert studies.rowsOf(tmp_path / 'a/earlier.csv')[1:] == [['y', '1']]
+	with pytest.raises(ValueError, match='give rows of the same columns'): studies.renew(tmp_path / 'a', [['other']])
+	with pytest.raises(ValueError, match='lists no tables'): studies.take('a', tmp_path)
 
 
 def test_conclusions_are_short_and_have_a_title(tmp_path, monkeypatch):
