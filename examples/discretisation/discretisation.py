@@ -66,4 +66,5 @@ for file, measure, known, columns in kinds:
 			table.add([dict(scene=name, cells=cells) | measure(name, known[name], cells)])
 
 page.write(options.out)
+page.writeStudy(options.out, options.out)
 print(f'written: {options.out}/README.md and pictures')

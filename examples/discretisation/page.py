@@ -14,6 +14,7 @@ import stresses
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('scripts', 'lib'), ('plugin', 'python', 'mpm'))]
 import pages
+import studies
 from refinement import errorOf
 
 
@@ -129,5 +130,15 @@ CHANGE = """## What to change
 def write(folder):
 	cases, found = judged(folder), rows(folder, 'stresses')
 	if cases or found: picture(cases, found, os.path.join(folder, 'discretisation.png'))
-	findings = pages.texts(os.path.join(here, 'findings.md'))
-	pages.write(folder, [*findings, '### How many', '', counts(cases, found), '### Quantities', '', quantityTable(cases), '', '### Stresses', '', stressTable(found), '', CHANGE])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), counts(cases, found), CHANGE])
+
+
+def writeStudy(folder, home=studies.home):
+	"""All cases of the kept runs."""
+	cases, found = judged(folder), rows(folder, 'stresses')
+	pages.write(home, [studies.conclusionOf('discretisation'), '', '## How many', '', counts(cases, found), '## Quantities', '', quantityTable(cases), '', '## Stresses', '', stressTable(found), ''], 'discretisation.md')
+
+
+if __name__ == '__main__': # of the kept runs
+	write(here)
+	writeStudy(here)

@@ -73,4 +73,5 @@ for name in chosen:
 		table.add([dict(scene=name, steps=steps, part=part, tolerance=f'{tolerance:.4g}') | row])
 		print(name, steps, part, *row.values(), flush=True)
 page.write(options.out)
+page.writeStudy(options.out, options.out)
 print(f'written: {options.out}/README.md and its picture')

@@ -13,6 +13,7 @@ from scenes import scenes
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 
 parts = 0.04, 0.02, 0.01, 0.005, 0.002  # stepTolerance over the displacement at the end
 
@@ -84,5 +85,15 @@ CHANGE = """## What to change
 def write(folder):
 	found = runs(folder)
 	picture(found, os.path.join(folder, 'load_steps.png'))
-	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), '### How many', '', verdict(found), '', '### Tolerances', '', comparison(found), '', '### Fixed numbers of steps', '',
-	                     'Error, solves:', '', fixedTable(found), '', CHANGE])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), verdict(found), '', CHANGE])
+
+
+def writeStudy(folder, home=studies.home):
+	"""All runs of the kept tables."""
+	found = runs(folder)
+	pages.write(home, [studies.conclusionOf('load_steps'), '', '## How many', '', verdict(found), '', '## Tolerances', '', comparison(found), '', '## Fixed numbers of steps', '', 'Error, solves:', '', fixedTable(found), ''], 'load_steps.md')
+
+
+if __name__ == '__main__': # of the kept runs
+	write(here)
+	writeStudy(here)

@@ -13,6 +13,7 @@ import numpy as np
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 
 titles = dict(footing='footing', tightFooting='footing, small block', cut='cut', tightCut='cut, small block', bar='bar, where it is', way='bar, along its way', tightBar='bar, small block')
 
@@ -147,13 +148,28 @@ CHANGE = """## What to change
 
 
 def write(folder):
-	footings = os.path.join(folder, 'results', 'footing.csv')
-	if os.path.exists(footings): pages.write(folder, [*pages.texts(os.path.join(here, 'footing_findings.md')), *limitLoads(rows(footings))], 'footing.md')
-	measured = rows(os.path.join(folder, 'results', 'runs.csv'))
-	runs = settled(measured)
-	found, growth = judged(runs), exponents(runs)
-	exponent = np.mean(list(growth.values())) if growth else None
+	runs = settled(rows(os.path.join(folder, 'results', 'runs.csv')))
+	found, exponent, _ = powers(runs)
 	picture(runs, found, os.path.join(folder, 'two_sizes.png'))
-	parts = [*pages.texts(os.path.join(here, 'findings.md')), '### Saving at equal error', '', savings(found, exponent), '']
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), savings(found, exponent), '', CHANGE])
+
+
+def powers(runs):
+	"""Runs with cells of several sizes, the mean power with which a solve of the plugin grows, and each by its scene."""
+	growth = exponents(runs)
+	return judged(runs), np.mean(list(growth.values())) if growth else None, growth
+
+
+def writeStudy(folder, home=studies.home):
+	"""All tables of the kept runs."""
+	measured = rows(os.path.join(folder, 'results', 'runs.csv'))
+	found, exponent, growth = powers(settled(measured))
+	parts = [studies.conclusionOf('two_sizes'), '', '## Saving at equal error', '', savings(found, exponent), '']
 	if growth: parts += ['Time of a solve of the plugin with equal cells: unknowns to the power ' + ', '.join(f'{power:.2f} ({name})' for name, power in growth.items()) + f'; the table takes {exponent:.2f}.', '']
-	pages.write(folder, [*parts, '### Equal cells, here and in the plugin', '', check(measured), '', CHANGE])
+	parts += ['## Equal cells, here and in the plugin', '', check(measured), '', '## Footings of the plugin', '', *limitLoads(rows(os.path.join(folder, 'results', 'footing.csv')))]
+	pages.write(home, parts, 'two_sizes.md')
+
+
+if __name__ == '__main__': # of the kept runs
+	write(here)
+	writeStudy(here)

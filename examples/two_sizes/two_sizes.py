@@ -83,4 +83,5 @@ for row in sorted(plan, key=lambda row: row[1]):
 	table.add([dict(zip(['scene', 'cells', 'levels', 'choice', 'extent'], row)) | found])
 	print(*row, *found.values(), flush=True)
 page.write(options.out)
+page.writeStudy(options.out, options.out)
 print(f'written: {options.out}/README.md and its picture')
