@@ -11,6 +11,7 @@ import numpy as np
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 
 
 def load(folder):
@@ -24,9 +25,18 @@ def load(folder):
 def write(folder, results):
 	"""Results and page."""
 	pages.replace(os.path.join(folder, 'results', 'bench.json'), json.dumps(results, indent='\t') + '\n')
-	parts = [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(folder, 'findings.md'))]
-	parts += [section(results[name]) for name, section in sections.items() if name in results]
-	pages.write(folder, [*parts, CHANGE])
+	pages.write(folder, [INTRODUCTION.format(**results['machine']), *tables(results), CHANGE])
+
+
+def tables(results):
+	return [section(results[name]) for name, section in sections.items() if name in results]
+
+
+def writeKept(folder, home=studies.home):
+	"""The page of the example, which has times of whole scenes only, and that of the study, from the kept results."""
+	results = load(folder)
+	pages.write(folder, [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(here, 'findings.md')), scenes(results['scenes']), CHANGE])
+	pages.write(home, [studies.conclusionOf('benchmarks', results['machine']), '', *tables(results)], 'benchmarks.md')
 
 
 def machine():
@@ -412,3 +422,6 @@ BODIES = """### Filling
 A scene filled with material points (`mpm.fill`), and one with spheres (`utils.sphere` in a list), in processes of their own.
 
 """
+
+
+if __name__ == '__main__': writeKept(here)

@@ -148,6 +148,7 @@ writers = { # without the pictures, which take long
         'extremes': f'import overview; overview{noPictures}' + 'from overview import pictures; pictures.outcomes = pictures.conditions = pictures.cornerMaps = pictures.pivots = lambda *a: None; overview.write({0!r}); overview.page.writeStudy({0!r}, {0!r})',
         'discretisation': f'import page; page{noPictures}' + 'page.write({0!r}); page.writeStudy({0!r}, {0!r})',
         'two_sizes': f'import page; page{noPictures}' + 'page.write({0!r}); page.writeStudy({0!r}, {0!r})',
+        'benchmarks': 'import page; page.writeKept({0!r}, {0!r})',
         'load_steps': f'import page; page{noPictures}' + 'page.write({0!r}); page.writeStudy({0!r}, {0!r})',
         'trade': f'import overview; overview{noPictures}overview.page{noPictures}' + 'overview.write({0!r}); overview.page.writeStudy({0!r}, overview.plans, {0!r})'
 }
