@@ -28,15 +28,15 @@ def write(folder, results):
 	pages.write(folder, [INTRODUCTION.format(**results['machine']), *tables(results), CHANGE])
 
 
-def tables(results):
-	return [section(results[name]) for name, section in sections.items() if name in results]
+def tables(results, without=()):
+	return [section(results[name]) for name, section in sections.items() if name in results and name not in without]
 
 
 def writeKept(folder, home=studies.home):
 	"""The page of the example, which has times of whole scenes only, and that of the study, from the kept results."""
 	results = load(folder)
 	pages.write(folder, [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(here, 'findings.md')), scenes(results['scenes']), CHANGE])
-	pages.write(home, [studies.conclusionOf('benchmarks', results['machine']), '', *tables(results)], 'benchmarks.md')
+	pages.write(home, [studies.conclusionOf('benchmarks', results['machine']), '', *tables(results, ['scenes'])], 'benchmarks.md')
 
 
 def machine():
