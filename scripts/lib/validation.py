@@ -222,7 +222,7 @@ def picture(found, path):
 		ax.plot(x, y, marker, label=kind, alpha=0.6, markersize=5, markeredgewidth=0)
 	for edge in 1, 10: ax.axvline(edge, color='0.7', linewidth=0.8, zorder=0)
 	ax.set(xscale='log', xlim=(7e-4, 200), ylim=(len(groups) - 0.5, -0.5), yticks=range(len(groups)), yticklabels=list(groups), xlabel='difference [%]')
-	ax.set_xticks([1e-3, 1e-2, 0.1, 1, 10, 100], ['below .001', '.01', '.1', '1', '10', '100'])
+	ax.set_xticks([1e-3, 1e-2, 0.1, 1, 10, 100], ['below 0.001', '0.01', '0.1', '1', '10', '100'])
 	ax.legend(frameon=False, loc='upper center', bbox_to_anchor=(0.5, 1.1), ncols=3)
 	figure.savefig(path, dpi=120)
 
