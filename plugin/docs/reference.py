@@ -12,7 +12,7 @@ flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmGhost', 'MpmNewton'],
         'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmFreeField', 'MpmBaseMotion', 'MpmTraction', 'MpmReinforcement', 'MpmBeam', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmBodyContact', 'MpmBody', 'MpmCondition'],
-        'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmHardeningSoilMat', 'MpmNorSandMat', 'MpmUserMat', 'MpmFrictionalMat', 'MpmMaterial'],
+        'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmHardeningSoilMat', 'MpmNorSandMat', 'MpmUserMat', 'MpmFrictionalMat', 'MpmMaterial', 'MpmVanGenuchten', 'MpmGardner', 'MpmBrooksCorey', 'MpmRetentionTable', 'MpmRetention'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],
 }

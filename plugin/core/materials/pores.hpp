@@ -5,6 +5,8 @@
 
 namespace gimpm {
 
+struct Retention;
+
 struct Pores {
 	enum class Law { constant, kozenyCarman, logarithmic };
 
@@ -13,8 +15,9 @@ struct Pores {
 	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
 	Law    law          = Law::constant;
 	double index        = std::numeric_limits<
-                double>::quiet_NaN(); ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
-	bool areRigid = false;               ///< water passes without pressing on the grains, and their strain displaces no water
+                double>::quiet_NaN();  ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
+	bool             areRigid  = false;   ///< water passes without pressing on the grains, and their strain displaces no water
+	const Retention* retention = nullptr; ///< null: the pores are always full
 
 	/// Conductivity for the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {

@@ -22,6 +22,7 @@ void MpmMaterial::requireAdmissible() const
 		throw std::invalid_argument(
 		        "Material '" + label + "' is an MpmMaterial, which has no constitutive law: use a class derived from it, such as MpmElasticMat.");
 	ExposedIndexed<MpmMaterial, Material>::requireAdmissible();
+	if (retention) retention->requireAdmissible();
 	if (undrained && std::isnan(waterModulus))
 		throw std::invalid_argument(
 		        "Material '" + label

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "yade_api/exposed.hpp"
+#include "engine/materials/retention/MpmRetention.hpp"
 
 namespace yade {
 
@@ -20,6 +20,8 @@ public:
 	string conductivityLaw   = "constant";
 	Real   conductivityIndex = std::numeric_limits<Real>::quiet_NaN();
 	Real   relaxationTime    = std::numeric_limits<Real>::quiet_NaN();
+
+	shared_ptr<MpmRetention> retention; // none: always saturated
 
 	YADE_API_NAME(MpmMaterial)
 	static const char* doc()
@@ -56,6 +58,8 @@ public:
 		  admitting("a finite number > 0, or NaN, the default: not given", [](Real value) {
 			  return std::isnan(value) || (std::isfinite(value) && value > 0);
 		  }));
+		v("retention", &MpmMaterial::retention, 0,
+		  "Retention curve (MpmVanGenuchten, MpmGardner, MpmBrooksCorey, MpmRetentionTable), for *MpmFlow.total*; None, the default: the soil is always saturated.");
 		v("relaxationTime", &MpmMaterial::relaxationTime, 0,
 		  "Time [s] > 0 in which stress beyond yield goes to what the law bears (Duvaut and Lions); NaN, the default: at once. O.time must count seconds.",
 		  admitting("a finite number > 0 [s], or NaN, the default: at once", [](Real value) {

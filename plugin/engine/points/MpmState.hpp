@@ -17,6 +17,7 @@ public:
 	Real                            volume0        = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Real                            porePressure   = std::numeric_limits<Real>::quiet_NaN(); // there is no water
 	Real                            excessPressure = 0;
+	Real                            saturation     = std::numeric_limits<Real>::quiet_NaN();                     // not known
 	Vector3r                        waterFlux      = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
 	Real                            plasticStrain  = 0;
 	vector<std::pair<string, Real>> internals; // variables of the law that are no attribute here
@@ -70,6 +71,8 @@ public:
 		v("excessPressure", &MpmState::excessPressure, 0,
 		  "Pressure [Pa] in the pores over that of still water (MpmWater): of water that cannot leave (*MpmMaterial.undrained*), or that flows (*MpmImplicitEngine.flow*); *porePressure* has it, too.",
 		  finite);
+		v("saturation", &MpmState::saturation, readonly,
+		  "Degree of saturation [-] at the end of the last step with *MpmFlow.total*: a result; NaN without, and after mpm.assign(excessPressure=...).");
 		v("waterFlux", &MpmState::waterFlux, readonly,
 		  "Volume of water that flows through the soil, by area and time [m/s], at the end of the last step with *MpmImplicitEngine.flow*: a result; NaN without.");
 		v("splits", &MpmState::splits, readonly,

@@ -14,7 +14,7 @@ namespace {
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
 	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits, ofPores = PointColumn::ofPores, ofFlow = PointColumn::ofFlow,
-	               ofBodies = PointColumn::ofBodies;
+	               ofBodies = PointColumn::ofBodies, ofAir = PointColumn::ofAir;
 
 	// Column of integers; of(point, scene) is the number.
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -69,7 +69,10 @@ namespace {
 	{
 		PointColumn column
 		        = result("excessPressure", "Pa", "excess pore pressure", arrays | vtk | ofPores, [](Point p) { return p.state->excessPressure; });
-		column.set = [](Point p, const Real* from) { p.state->excessPressure = *from; };
+		column.set = [](Point p, const Real* from) {
+			p.state->excessPressure = *from;
+			p.state->saturation     = std::numeric_limits<Real>::quiet_NaN(); // that of the pressure
+		};
 		return column;
 	}
 
@@ -140,6 +143,7 @@ namespace {
 		columns.push_back(result("porePressure", "Pa", "pore pressure", arrays | vtk | ofWater, [](Point p) { return p.state->porePressure; }));
 		columns.push_back(excessPressure());
 		columns.push_back(result("waterFlux", "m/s", "flux of water", arrays | vtk | ofFlow, [](Point p) { return p.state->waterFlux; }));
+		columns.push_back(result("saturation", "-", "degree of saturation", arrays | vtk | ofAir, [](Point p) { return p.state->saturation; }));
 		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
 			columns.push_back(internal(variable));
 		for (const Parameter& of : allParameters())
@@ -164,12 +168,13 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
 	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
 	const MpmMaterial* last     = nullptr; // points of one material follow each other
-	bool               hasWater = false, hasSplits = false, hasPores = false, hasFlow = false, hasBodies = false;
+	bool               hasWater = false, hasSplits = false, hasPores = false, hasFlow = false, hasBodies = false, hasAir = false;
 	for (const MaterialPoint& point : points) {
 		hasWater  = hasWater || !std::isnan(point.state->porePressure);
 		hasSplits = hasSplits || point.state->splits > 0;
 		hasBodies = hasBodies || point.state->body >= 0;
 		hasFlow   = hasFlow || !std::isnan(point.state->waterFlux[0]);
+		hasAir    = hasAir || !std::isnan(point.state->saturation);
 		hasPores  = hasPores || hasFlow || point.state->excessPressure != 0 || point.material->undrained;
 		for (const auto& own : point.state->parameters)
 			names.insert(own.first);
@@ -182,7 +187,7 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 	const auto                 isThere = [&](const PointColumn& column) {
                 if (column.variable || column.isParameter) return names.count(column.name) > 0;
                 return (hasWater || !column.is(ofWater)) && (hasSplits || !column.is(ofSplits)) && (hasPores || !column.is(ofPores))
-                        && (hasFlow || !column.is(ofFlow)) && (hasBodies || !column.is(ofBodies));
+                        && (hasFlow || !column.is(ofFlow)) && (hasBodies || !column.is(ofBodies)) && (hasAir || !column.is(ofAir));
 	};
 	for (const PointColumn& column : pointColumns())
 		if (isThere(column)) columns.push_back(&column);

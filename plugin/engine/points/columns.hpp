@@ -17,6 +17,7 @@ struct PointColumn {
 		ofPores  = 64,  // only where water has a pressure in excess
 		ofFlow   = 128, // only where it flows
 		ofBodies = 256, // only where bodies of points have names
+		ofAir    = 512, // only where pores need not be full
 		derived  = 4,   // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 

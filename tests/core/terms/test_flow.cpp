@@ -1,87 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Water that flows through a soil which deforms: tangent, balance, exact fields, and columns that consolidate.
 #include "core/solvers/condition.hpp"
-#include "core/stepping/load_step.hpp"
-#include "core/terms/traction.hpp"
-#include "core/terms/water/flow.hpp"
 #include "derivatives.hpp"
-#include "scenes.hpp"
+#include "wet_soil.hpp"
 
 namespace gimpm::testFlow {
 namespace {
 
-	/// A box of soil of any length, whose last layer of points along `axis` may end anywhere in its cell.
-	template <int Dim> struct Soil {
-		static constexpr double young = 1e6;
-		double                  h;
-		Model<Dim>              model;
-		PointCloud<Dim>         cloud;
-		SoilWater<Dim>          water;
-		SurfaceLoad<Dim>        load;
-		LinearSolver            solver;
-
-		Soil(double h, Vec<Dim> size, bool axisymmetric = false, double modulus = young) : h(h)
-		{
-			model.grid.cellSize     = h;
-			model.grid.axisymmetric = axisymmetric;
-			model.materials         = { { Hencky(modulus, 0), 0 } };
-			model.newton.tolerance  = 1e-10;
-			std::vector<ConstrainedBox<Dim>> walls;
-			for (int a = 0; a < Dim; ++a)
-				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
-			if (axisymmetric) walls.push_back(ConstrainedBox<Dim>::ofAxis(model.grid));
-			model.boundary         = Boundary<Dim>(walls);
-			const Index<Dim> count = (2 * size / h).array().ceil().template cast<int>();
-			const Vec<Dim>   half  = 0.5 * size.cwiseQuotient(count.template cast<double>());
-			forIndices<Dim>(Index<Dim>::Zero(), count, [&](const Index<Dim>& i) {
-				addPoint<Dim>(cloud, Vec<Dim>((2 * i.template cast<double>() + Vec<Dim>::Ones()).cwiseProduct(half)), half);
-			});
-			if (axisymmetric) cloud.hoopStretch.assign(cloud.size(), 1);
-			for (std::size_t p = 0; axisymmetric && p < cloud.size(); ++p)
-				cloud.volume0[p] *= 2 * M_PI * cloud.position[p][0];
-			water.pores = { { 1e-8, 0.5 } };
-			water.pressure.assign(cloud.size(), 0);
-			model.fields       = { pressureField(water, *model.division, modulus / h) };
-			model.coupledTerms = { [this](const StepContext<Dim>& step, const State&) {
-				return std::make_unique<Flow<Dim>>(
-				        water, [this](int) { return model.materials[0].young({}, 0); }, step);
-			} };
-		}
-		void hold(const std::vector<ConstrainedBox<Dim>>& more)
-		{
-			auto walls = model.boundary.boxes();
-			walls.insert(walls.end(), more.begin(), more.end());
-			model.boundary = Boundary<Dim>(walls);
-		}
-		Drain<Dim>& drain(const Surface<Dim>& surface, typename Drain<Dim>::Kind kind, double given)
-		{
-			Drain<Dim> made;
-			made.surface = surface, made.kind = kind, made.given = given;
-			made.surface.refine(h / 4);
-			water.drains.push_back(made);
-			return water.drains.back();
-		}
-		void push(const Surface<Dim>& surface, const Vec<Dim>& traction)
-		{
-			load.surface = surface, load.traction = traction;
-			load.surface.refine(h / 4);
-			model.terms = { [this](const StepContext<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
-		}
-		StepReport step(double duration)
-		{
-			water.duration = duration;
-			return loadStep<Dim>(cloud, model, { Vec<Dim>::Zero(), { 1, 0 } }, solver);
-		}
-		double out() const
-		{
-			double sum = 0;
-			for (const auto& drain : water.drains)
-				sum += drain.out;
-			return sum;
-		}
-	};
-
-	Surface<2> line(const Vec<2>& from, const Vec<2>& to) { return { { from, to }, { from, to }, { { 0, 1 } } }; }
 	using Kind = Drain<2>::Kind;
 
 	/// One cell wide, on a base, under a load on its top, through which water leaves.
@@ -175,9 +100,9 @@ namespace {
 			Column column(10, 0.3, load * Column::young);
 			column.model.newton.tolerance = 1e-6;
 			if (isExact)
-				column.model.coupledTerms = { [&column](const StepContext<2>& step, const State&) {
+				column.model.coupledTerms = { [&column](const StepContext<2>& step, const State& begin) {
 					auto flow         = std::make_unique<Flow<2>>(
-                                                column.water, [&column](int) { return column.model.materials[0].young({}, 0); }, step);
+                                                column.water, [&column](int) { return column.model.materials[0].young({}, 0); }, step, begin);
 					flow->makeExact();
 					return flow;
 				} };

@@ -22,6 +22,18 @@ outOfRange = {
         'MpmMaterial.conductivityLaw': ['"Kozeny-Carman"'],
         'MpmMaterial.conductivityIndex': ['0.', '-1.'],
         'MpmMaterial.relaxationTime': ['0.', '-1.'],
+        'MpmMaterial.retention': None,
+        'MpmRetention.residual': ['-0.1', '1.'],
+        'MpmRetention.saturated': ['0.', '1.1'],
+        'MpmRetention.permeabilities': ['[(0, 0.9)]', '[(1, 1)]', '[(0, 1), (0, 0.5)]'],
+        'MpmVanGenuchten.alpha': ['0.', '-1.'],
+        'MpmVanGenuchten.n': ['1.', '0.5'],
+        'MpmVanGenuchten.permeability': ['"burdine"'],
+        'MpmGardner.alpha': ['0.', '-1.'],
+        'MpmBrooksCorey.entry': ['0.', '-1.'],
+        'MpmBrooksCorey.exponent': ['0.', '-1.'],
+        'MpmBrooksCorey.permeability': ['"burdine"'],
+        'MpmRetentionTable.saturations': ['[(0, 1)]', '[(0, 0.5), (1, 0.7)]', '[(1, 1), (2, 0.7)]'],
         'MpmElasticMat.young': ['0.', '-1.'],
         'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
         'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
@@ -168,6 +180,8 @@ outOfRange = {
         'MpmFlow.stabilisation': ['-1.'],
         'MpmFlow.ghost': ['-1e-2'],
         'MpmFlow.pressureTolerance': ['0.', '-1.'],
+        'MpmFlow.total': None,
+        'MpmFlow.bishop': ['"terzaghi"'],
         'MpmFlow.drains': None,
         'MpmDrain.surface': ['None'],
         'MpmDrain.pressure': None,
@@ -175,6 +189,8 @@ outOfRange = {
         'MpmDrain.levels': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmDrain.flux': None,
         'MpmDrain.seepage': None,
+        'MpmDrain.rain': None,
+        'MpmDrain.driest': ['0.', '1.'],
         'MpmDrain.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmDrain.conductance': ['0.', '-1.'],
         'MpmTraction.surface': ['None'],
@@ -295,6 +311,9 @@ admitted = {
         ('MpmDrain.level', 'nan'): 'pressure or flux',
         ('MpmDrain.levels', '()'): 'level stays',
         ('MpmDrain.flux', 'nan'): 'pressure or level',
+        ('MpmDrain.rain', 'nan'): 'pressure or level',
+        ('MpmMaterial.retention', 'None'): 'always saturated',
+        ('MpmRetention.permeabilities', '()'): 'by the form of the curve',
         ('MpmDrain.curve', '()'): 'one',
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
         **{(f'MpmReinforcement.{name}', 'inf'): 'no limit' for name in ('strength', 'bond', 'bondStiffness')},
@@ -325,6 +344,7 @@ nan = float('nan')
 
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmFreeField'
 flowing = 'MpmFlow', 'MpmDrain'
+retaining = 'MpmVanGenuchten', 'MpmGardner', 'MpmBrooksCorey', 'MpmRetentionTable'
 meeting = 'MpmBodyContact', 'MpmBody'
 structures = 'MpmReinforcement', 'MpmBeam'
 
@@ -362,6 +382,11 @@ def scene(engine='MpmImplicitEngine'):
 	if engine in flowing:
 		solver.flow = MpmFlow(drains=[drain])
 		for material in list(O.materials)[:9]: material.conductivity, material.porosity = 1e-4, .4
+	curve = dict(MpmVanGenuchten=lambda: MpmVanGenuchten(alpha=1, n=2), MpmGardner=lambda: MpmGardner(alpha=1), MpmBrooksCorey=lambda: MpmBrooksCorey(entry=1, exponent=1),
+	             MpmRetentionTable=lambda: MpmRetentionTable(saturations=[(0, 1), (10, .2)], permeabilities=[(0, 1), (10, .1)]))[engine]() if engine in retaining else None
+	if curve:
+		solver.flow, solver.water = MpmFlow(total=True, unitWeight=10, drains=[MpmDrain(surface=[(2, 5), (0, 5)], rain=1e-6)]), []
+		for material in list(O.materials)[:9]: material.conductivity, material.porosity, material.retention = 1e-4, .4, curve
 	nail = MpmReinforcement(line=[(.3, 2.5), (1.7, 2.2)], axialStiffness=1e4)
 	beam = MpmBeam(line=[(.2, 3), (1.8, 3)], axialStiffness=1e5, bendingStiffness=1e3, weight=10)
 	if engine in structures: solver.loads = [load, nail, beam]
@@ -372,13 +397,13 @@ def scene(engine='MpmImplicitEngine'):
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else []) + [nail, beam] * (engine in structures)}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + [curve] * (engine in retaining) + ([bodies, *grid.bodies] if engine in meeting else []) + [nail, beam] * (engine in structures)}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic, *flowing, *meeting, *structures, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, *flowing, *retaining, *meeting, *structures, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

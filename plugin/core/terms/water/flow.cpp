@@ -2,6 +2,7 @@
 #include "core/terms/water/flow.hpp"
 #include "core/base/instruction_set.hpp"
 #include "core/terms/overlap.hpp"
+#include "core/terms/water/fitted_pressures.hpp"
 #include "core/terms/water/flow_sums.hpp"
 #include <atomic>
 
@@ -45,7 +46,7 @@ template <int Dim> struct Corners {
 
 template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Division& division, double scale)
 {
-	const auto begin = [&water, &division](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>&) {
+	const auto begin = [&water, &division](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>& grid) {
 		auto pressure = water.pressure;
 		division.extend(pressure);
 		const auto      nodes = Eigen::Index(basis.nodes.size());
@@ -60,9 +61,10 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * pressure[p];
 					}
 			}
+		const Eigen::VectorXd fitted = water.whole ? fittedPressures(basis, cloud, grid, pressure) : Eigen::VectorXd();
 		for (Eigen::Index n = 0; n < nodes; ++n) {
 			const auto known = water.atNodes.find(basis.nodes[n]);
-			sum[n]           = known != water.atNodes.end() ? known->second : volume[n] > 0 ? sum[n] / volume[n] : 0;
+			sum[n]           = known != water.atNodes.end() ? known->second : water.whole ? fitted[n] : volume[n] > 0 ? sum[n] / volume[n] : 0;
 		}
 		return FieldStart { sum, {} };
 	};
@@ -75,7 +77,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 }
 
 template <int Dim>
-Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
+Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const StepContext<Dim>& step, const State& begin)
         : water_(water)
         , basis_(step.basis)
         , h_(step.grid.cellSize)
@@ -83,6 +85,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
         , division_(step.division)
         , faces_(step.faces)
         , near_(int(step.basis.nodes.size()))
+        , isExact_(water.whole)
         , ownPores_(water.ownPores)
 {
 	const auto& cloud    = step.cloud;
@@ -94,6 +97,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 		const Pores& soil = ownPores_.empty() ? water.pores[cloud.material[p]] : ownPores_[p];
 		points_.push_back({ cloud.volume0[p] * J, J, std::exp(pressure[p] / water.modulus) * (J - 1 + soil.porosity), pressure[p], &soil });
 	}
+	if (water_.whole) beginUnsaturated(begin.value(field));
 	weighCells(modulusOf, step);
 	findNear(step);
 	attachDrains(step);
@@ -109,15 +113,22 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	const std::vector<char> all(step.basis.populatedLeaves().size(), 1);
 	cellConductivity_.assign(cells.size(), 0);
 	std::vector<double> compliance(points_.size());
+	std::vector<double> relative(water_.whole ? points_.size() : 0), permeability(water_.whole ? cells.size() : 0, 0.);
 	for (std::size_t p = 0; p < points_.size(); ++p)
 		compliance[p] = 1 / modulusOf(int(p));
+	for (std::size_t p = 0; p < relative.size(); ++p) {
+		relative[p] = permeabilityOf(*points_[p].pores, points_[p].pressure).value;
+		compliance[p] *= std::pow(points_[p].pores->retention ? points_[p].pores->retention->effective(points_[p].pressure).value : 1, 2);
+	}
 	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
 		const double part = within(points_[p].volume);
 		volume[cell] += part, softness[cell] += part * compliance[p];
 		cellConductivity_[cell] += part * points_[p].pores->at(points_[p].ratio).value;
+		if (water_.whole) permeability[cell] += part * relative[p];
 	});
 	for (auto* ofCells : { &volume, &softness, &cellConductivity_ })
 		step.division.complete(cells, *ofCells);
+	if (water_.whole) step.division.complete(cells, permeability);
 	for (std::size_t c = 0; c < cells.size(); ++c) {
 		Cell       cell { {}, water_.stabilisation * softness[c] };
 		const auto lowest = Grid<Dim>::index(cells[c]);
@@ -129,10 +140,12 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 		}
 		if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
 		softness[c] /= volume[c], cellConductivity_[c] /= volume[c];
+		if (water_.whole) permeability[c] *= cellConductivity_[c] / volume[c];
 	}
 	for (auto& face : faces_) {
 		const auto [lower, upper] = cellsAt(face, step.basis, step.grid);
-		const double ofFlow       = water_.duration * std::min(cellConductivity_[lower], cellConductivity_[upper]);
+		const auto&  passes       = water_.whole ? permeability : cellConductivity_;
+		const double ofFlow       = water_.duration * std::min(passes[lower], passes[upper]);
 		face.stiffness            = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
 	}
 }
@@ -188,17 +201,21 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 	const auto&           d      = state.displacements();
 	const auto*           blocks = sum.couplings ? &blocksIn(*sum.couplings) : nullptr;
 	forRanges(basis_, [&](int first, int last) {
-		FlowSums<Dim> sums(sum, blocks, basis_.isAxisymmetric(), water_.duration, water_.modulus);
+		FlowSums<Dim> sums(sum, blocks, basis_.isAxisymmetric(), water_);
 		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
 			sums.begin(cell.node);
 			for (const auto* patch = cell.first; patch < cell.end; ++patch)
 				for (int i = patch->first; i < patch->first + patch->count; ++i) {
-					const int                 p = basis_.order[i];
-					const PointFunctions<Dim> f(basis_, i, *patch);
-					const FlowPoint<Dim>      s(points_[p], *patch, f, d, P, water_.modulus);
-					if (s.isPossible(points_[p])) sums.add(points_[p], s, *patch, f, PresentFunctions<Dim>(s, f));
-					else
+					const int                   p = basis_.order[i];
+					const PointFunctions<Dim>   f(basis_, i, *patch);
+					const FlowPoint<Dim>        s(points_[p], *patch, f, d, P, water_.modulus);
+					const PresentFunctions<Dim> now(s, f);
+					if (!s.isPossible(points_[p]))
 						for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
+					else if (water_.whole)
+						sums.addUnsaturated(points_[p], s, unsaturated(p, *patch, f, s, P), *patch, f, now);
+					else
+						sums.add(points_[p], s, *patch, f, now);
 				}
 			sums.scatterAdd();
 		});
@@ -273,6 +290,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = division_.sum(stored);
+	if (water_.whole) commitSaturation(state);
 	if (water_.keepsGrowth) keepGrowth(state);
 	if (water_.wantsWork) water_.work = workOn(state);
 	moveDrains(d, P);

@@ -7,6 +7,7 @@
 #include "core/terms/near_nodes.hpp"
 #include "core/terms/water/flow_point.hpp"
 #include "core/terms/water/soil_water.hpp"
+#include "core/terms/water/unsaturated_point.hpp"
 #include <memory>
 #include <utility>
 
@@ -31,7 +32,7 @@ public:
 	static constexpr int field = 1;
 
 	/// The water is kept by reference, and written in commitCoupled().
-	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const StepContext<Dim>&);
+	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const StepContext<Dim>&, const State& begin);
 	~Flow() override;
 
 	/// Symmetry with the sign of the field. The Jacobian of pore flow by displacements has no transpose; it is
@@ -61,6 +62,8 @@ private:
 		Attachment<Dim> at;
 		double          conductance = 0, given = 0;
 		bool            isOneWay = false; ///< water can leave only
+		bool            isRain   = false;
+		double          rain     = 0; ///< the most that enters, or evaporates if negative [m3]
 
 		double pressure(const Eigen::VectorXd& P) const
 		{
@@ -70,6 +73,13 @@ private:
 			return sum;
 		}
 	};
+	void beginUnsaturated(const Eigen::VectorXd& before);
+	void commitSaturation(const State&);
+
+	UnsaturatedPoint<Dim> unsaturated(int p, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const Eigen::VectorXd& P) const
+	{
+		return { *water_.whole, points_[p], &saturationBefore_[std::size_t(p) * windowNodes<Dim>], correction_[p], patch, f, s, P };
+	}
 	void        weighCells(const ConstrainedModulus&, const StepContext<Dim>&);
 	void        findNear(const StepContext<Dim>&);
 	void        attachDrains(const StepContext<Dim>&);
@@ -81,6 +91,7 @@ private:
 	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&, const FlowBlocks<Dim>*) const;
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;
+	double outflow(const Outlet&, double pressure) const;
 	void   moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P);
 	double workOn(const State&) const;
 	void   keepGrowth(const State&) const;
@@ -92,14 +103,16 @@ private:
 	const Division&              division_;
 	std::vector<GhostFace<Dim>>  faces_;
 	NearNodes<Dim>               near_;
+	bool                         isExact_;
 	std::vector<Pores>           ownPores_; ///< of each point of the cloud, where some have their own; else empty
 	std::vector<PorePoint>       points_;   ///< of the cloud
 	std::vector<double>          cellConductivity_;
+	std::vector<double>          saturationBefore_; ///< of each point at the nodes of its patch, where pores need not be full
+	std::vector<double>          correction_;       ///< what a point has more than its nodes say, over the initial volume
 	std::vector<Cell>            cells_;
 	std::vector<Outlet>          outlets_;
 	std::vector<Attachment<Dim>> vertices_; ///< of the drains, one after the other
 	std::string                  obstacle_;
-	bool                         isExact_ = false;
 
 	mutable std::unique_ptr<FlowBlocks<Dim>> blocks_;
 	mutable const double*                    blockValues_ = nullptr; ///< of the matrix that they are in

@@ -75,6 +75,8 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
 		const double conductance = passes * drain.conductance * kappa / h_;
 		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
+		else if (drain.kind == Drain<Dim>::Kind::rain)
+			outlets_.push_back({ number, at, conductance, drain.given < 0 ? drain.driest : 0, false, true, passes * drain.given });
 		else if (drain.level)
 			outlets_.push_back({ number, at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
 		else
@@ -88,7 +90,8 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step) const
 {
 	const bool hasWayOut = std::any_of(outlets_.begin(), outlets_.end(), [](const Outlet& o) { return o.conductance > 0; });
-	if (hasWayOut || std::isfinite(water_.modulus)) return "";
+	const bool isFull    = std::all_of(points_.begin(), points_.end(), [](const PorePoint& point) { return !point.pores->retention; });
+	if (hasWayOut || std::isfinite(water_.modulus) || !isFull) return "";
 	Eigen::VectorXd push = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), size = push;
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
@@ -105,10 +108,28 @@ template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step
 	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";
 }
 
-/// Zero of a seepage face where the pressure would draw water in.
+/// Derivative of the outflow: zero of a seepage face where the pressure would draw water in, and of a surface that
+/// takes in all of the rain, or loses all that can evaporate.
 template <int Dim> double Flow<Dim>::conductanceNow(const Outlet& outlet, double pressure) const
 {
+	if (outlet.isRain) {
+		const double passes     = outlet.conductance * (pressure - outlet.given);
+		const bool   evaporates = outlet.rain < 0, isLimited = evaporates ? 0 < passes && passes < -outlet.rain : passes > -outlet.rain;
+		const bool   alsoSeepage = evaporates && pressure > 0;
+		return outlet.conductance * (int(isLimited) + int(alsoSeepage));
+	}
 	return outlet.isOneWay && pressure <= outlet.given ? 0 : outlet.conductance;
+}
+
+/// Volume that leaves in the step [m3]. Rain enters as long as the surface has suction; then no more than keeps the
+/// pressure there, so that what is left runs off. Water evaporates as long as the surface is not at its least pressure.
+template <int Dim> double Flow<Dim>::outflow(const Outlet& o, double pressure) const
+{
+	if (water_.drains[o.drain].kind == Drain<Dim>::Kind::flux) return o.given;
+	const double passes = o.conductance * (pressure - o.given);
+	if (o.isRain && o.rain >= 0) return std::max(-o.rain, passes);
+	if (o.isRain) return std::clamp(passes, 0., -o.rain) + o.conductance * std::max(pressure, 0.);
+	return conductanceNow(o, pressure) * (pressure - o.given);
 }
 
 template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>& sum) const
@@ -116,7 +137,7 @@ template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const Fie
 	for (const Outlet& o : outlets_) {
 		const bool   isFlux   = water_.drains[o.drain].kind == Drain<Dim>::Kind::flux;
 		const double pressure = o.pressure(P), conductance = conductanceNow(o, pressure);
-		const double out  = isFlux ? o.given : conductance * (pressure - o.given),
+		const double out  = o.isRain || isFlux ? outflow(o, pressure) : conductance * (pressure - o.given),
 		             size = isFlux ? std::abs(o.given) : conductance * (std::abs(pressure) + std::abs(o.given));
 		for (int m = 0; m < o.at.nodes; ++m) {
 			sum.force[field][o.at.node[m]] += o.at.weight[m] * out;
@@ -137,13 +158,14 @@ template <int Dim> void Flow<Dim>::moveDrains(const Eigen::VectorXd& d, const Ei
 	}
 	for (const Outlet& o : outlets_) {
 		Drain<Dim>& drain = water_.drains[o.drain];
-		drain.out += drain.kind == Drain<Dim>::Kind::flux ? o.given : conductanceNow(o, o.pressure(P)) * (o.pressure(P) - o.given);
+		drain.out += outflow(o, o.pressure(P));
 	}
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template void        Flow<Dim>::attachDrains(const StepContext<Dim>&);                                                                                 \
 	template std::string Flow<Dim>::enclosure(const StepContext<Dim>&) const;                                                                              \
+	template double      Flow<Dim>::outflow(const Outlet&, double) const;                                                                                  \
 	template void        Flow<Dim>::addDrains(const Eigen::VectorXd&, const FieldSum<Dim>&) const;                                                         \
 	template void        Flow<Dim>::moveDrains(const Eigen::VectorXd&, const Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

@@ -4,6 +4,7 @@
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/near_nodes.hpp"
 #include "core/terms/water/flow_point.hpp"
+#include "core/terms/water/unsaturated_point.hpp"
 #include <algorithm>
 #include <cstring>
 
@@ -90,13 +91,15 @@ template <int Dim> class FlowSums {
 
 public:
 	/// Blocks: null if no derivatives are asked for.
-	FlowSums(const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks, bool isAxisymmetric, double duration, double modulus)
+	FlowSums(const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks, bool isAxisymmetric, const SoilWater<Dim>& water)
 	        : sum_(sum)
 	        , blocks_(blocks)
 	        , isSymmetric_(!blocks || sum.couplings->isSymmetric())
 	        , isAxisymmetric_(isAxisymmetric)
-	        , duration_(duration)
-	        , modulus_(modulus)
+	        , isWhole_(water.whole)
+	        , duration_(water.duration)
+	        , modulus_(water.modulus)
+	        , weight_(isWhole_ ? Vec<Dim>(water.whole->factor * water.whole->weight) : Vec<Dim>(Vec<Dim>::Zero()))
 	{
 	}
 
@@ -108,6 +111,7 @@ public:
 		clear(turn_), clear(up_), clear(pp_);
 		if (isAxisymmetric_) clear(ring_);
 		if (!isSymmetric_) clear(pu_);
+		if (isWhole_) clear(grown_);
 	}
 
 	void add(const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
@@ -116,8 +120,29 @@ public:
 		addForces(point, s);
 		if (!blocks_) return;
 		addSymmetric(point, s);
-		if (isAxisymmetric_) addRing(point, s);
+		if (isAxisymmetric_) addRing(point, s, s.pressure);
 		if (!isSymmetric_) addRest(point, s);
+	}
+
+	/// The same of pores that need not be full. The matrix is not symmetric.
+	void addUnsaturated(
+	        const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u, const Patch<Dim>& patch, const PointFunctions<Dim>& f,
+	        const PresentFunctions<Dim>& now)
+	{
+		take(patch, f, now);
+		std::memset(&wet_, 0, sizeof wet_);
+		for (int n = 0; n < f.count; ++n) {
+			if (patch.node[n] < 0) continue;
+			const int a        = patchShapes<Dim>[patch.span].inWindow[n];
+			wet_.saturation[a] = u.saturation[n], wet_.capacity[a] = u.capacity[n], wet_.stored[a] = u.stored[n];
+			wet_.drive[a] = u.drive.dot(now.gradient[n]);
+		}
+		addForcesUnsaturated(point, s, u);
+		if (!blocks_) return;
+		addPush(point, s, u);
+		if (isAxisymmetric_) addRing(point, s, u.push.value);
+		addStorage(point, s, u);
+		addDarcy(point, s, u);
 	}
 
 	void scatterAdd() const
@@ -135,6 +160,7 @@ public:
 			for (int n = 0; n < N && node_[m] >= 0; ++n) {
 				if (node_[n] < 0) continue;
 				if (m <= n && sum_.K->keeps(node_[m])) addStiffness(m, n, sum_.K->at(node_[m], code[m][n]));
+				if (isWhole_) addWeight(m, n, code[m][n]);
 				addCouplings(m, n, code[m][n]);
 			}
 	}
@@ -143,6 +169,9 @@ private:
 	static constexpr int field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
 	struct Functions {
 		Row value, hoop, along, gradient[Dim], dilation[Dim];
+	};
+	struct Wetness {
+		Row saturation, capacity, stored, drive;
 	};
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
@@ -203,9 +232,9 @@ private:
 		}
 	}
 	/// Adds the stretch along the circle: of xx, of xy and of yx.
-	void addRing(const PorePoint& point, const FlowPoint<Dim>& s)
+	void addRing(const PorePoint& point, const FlowPoint<Dim>& s, double pressure)
 	{
-		const double pushes = point.coupling() * point.volume * s.J * s.pressure;
+		const double pushes = point.coupling() * point.volume * s.J * pressure;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			addTimes(ring_[0][a], -pushes * at_.hoop[a], at_.gradient[0]);
@@ -232,6 +261,81 @@ private:
 		}
 	}
 
+	void addForcesUnsaturated(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
+	{
+		const double V = point.volume * s.J, V0 = point.volume / point.ratio, flow = duration_ * V * s.density * s.kappa.value * u.permeability.value;
+		const double gained = V0 * (u.content - point.pores->porosity);
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			for (int i = 0; i < Dim; ++i) {
+				const double push = -V * u.push.value * at_.dilation[i][a], weight = -gained * weight_[i] * at_.value[a];
+				force_[i][a] += push + weight, absoluteContributions_[i][a] += std::abs(push) + std::abs(weight);
+			}
+			const double passes = flow * wet_.drive[a], ofStored = V0 * wet_.stored[a] * at_.value[a];
+			force_[Dim][a] += passes + ofStored, absoluteContributions_[Dim][a] += std::abs(passes) + std::abs(ofStored);
+		}
+	}
+	/// Derivatives of the pressure on the grains, and of the weight by pressures.
+	void addPush(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
+	{
+		const double V = point.volume * s.J, V0 = point.volume / point.ratio, pushes = V * u.push.value;
+		Row          byPressure = {}; // of the content
+		for (int m = 0; m < count_; ++m)
+			byPressure[own_[m]] = at_.value[own_[m]] * (wet_.capacity[own_[m]] + u.content / modulus_);
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			for (int i = 0, pair = 0; i < Dim; ++i) {
+				addTimes(up_[i][a], -V * u.push.slope * at_.dilation[i][a], at_.value);
+				addTimes(up_[i][a], -V0 * weight_[i] * at_.value[a], byPressure);
+				for (int k = i + 1; k < Dim; ++k, ++pair) {
+					addTimes(turn_[pair][a], pushes * at_.gradient[k][a], at_.gradient[i]);
+					addTimes(turn_[pair][a], -pushes * at_.gradient[i][a], at_.gradient[k]);
+				}
+			}
+		}
+	}
+	/// Derivatives of the content, whose growth by displacements has weight, too.
+	void addStorage(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
+	{
+		const double grown = point.volume * s.J * s.density, V0 = point.volume / point.ratio, saturation = u.content / u.filled;
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			for (int i = 0; i < Dim; ++i) {
+				addTimes(pu_[i][a], grown * wet_.saturation[a] * at_.value[a], at_.dilation[i]);
+				addTimes(grown_[i][a], grown * saturation * at_.value[a], at_.dilation[i]);
+			}
+			pp_[a][a] += V0 * at_.value[a] * wet_.capacity[a];
+			addTimes(pp_[a], V0 * at_.value[a] * wet_.saturation[a] * u.filled / modulus_, at_.value);
+		}
+	}
+	void addDarcy(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
+	{
+		const double full = duration_ * point.volume * s.J * s.density * s.kappa.value, flow = full * u.permeability.value,
+		             led = flow * (1 + s.kappa.logDerivative), opened = full * u.permeability.slope + flow / modulus_;
+		for (int m = 0; m < count_; ++m) {
+			const int a        = own_[m];
+			Row       products = {};
+			for (int i = 0; i < Dim; ++i)
+				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
+			addTimes(pp_[a], flow, products);
+			addTimes(pp_[a], opened * wet_.drive[a], at_.value);
+			for (int i = 0; i < Dim; ++i) {
+				addTimes(pu_[i][a], led * wet_.drive[a], at_.dilation[i]);
+				addTimes(pu_[i][a], -flow * s.pressureGradient[i], products);
+				addTimes(pu_[i][a], -flow * at_.gradient[i][a], wet_.drive);
+			}
+		}
+	}
+	/// Of the displacements: water that a point takes up pulls it down.
+	void addWeight(int m, int n, int code) const
+	{
+		Mat<Dim> block;
+		for (int i = 0; i < Dim; ++i)
+			for (int k = 0; k < Dim; ++k)
+				block(i, k) = -weight_[i] * grown_[k][m][n];
+		sum_.K->add(node_[m], node_[n], code, block);
+	}
+
 	/// It is symmetric, so that it serves for both of the opposite blocks.
 	void addStiffness(int m, int n, double* block) const
 	{
@@ -253,12 +357,15 @@ private:
 
 	const FieldSum<Dim>&   sum_;
 	const FlowBlocks<Dim>* blocks_;
-	const bool             isSymmetric_, isAxisymmetric_;
+	const bool             isSymmetric_, isAxisymmetric_, isWhole_;
 	const double           duration_, modulus_;
+	const Vec<Dim>         weight_; // of water on the soil, where it is not that of still water [N/m3]
 	std::array<int, N>     node_;
 	Row                    force_[Dim + 1], absoluteContributions_[Dim + 1];  // the last one: of the pressure
 	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N]; // by rows
 	Row                    pu_[Dim][N];                                       // where the matrix is not symmetric
+	Row                    grown_[Dim][N];                                    // content by displacements, where water has its weight
+	Wetness                wet_;                                              // of the point at hand, where pores need not be full
 	Functions              at_;                                               // of the point at hand, zero at other nodes
 	int                    own_[N], count_ = 0;                               // its nodes
 };

@@ -4,10 +4,13 @@
 #pragma once
 #include "core/grid/surface.hpp"
 #include "core/materials/pores.hpp"
+#include "core/materials/retention.hpp"
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +22,13 @@ template <int Dim> struct Drain {
 	enum class Kind {
 		pressure, ///< there is a given pressure
 		seepage,  ///< that pressure, but water cannot enter
-		flux      ///< so much leaves, whatever the pressure
+		flux,     ///< so much leaves, whatever the pressure
+		rain      ///< so much enters, as long as the soil takes it in, or leaves, as long as it is not too dry
 	};
 	/// Water stands outside up to a height, other than that of the still water over which pressures are in excess.
 	/// Above it water can only leave, into the air.
 	struct Level {
-		double height, still, weight; ///< of water, by volume
+		double height, still, weight; ///< of water, by volume; still = NaN: pressures are whole ones
 		int    axis;
 		double up; ///< 1 or -1: heights are up * x[axis]
 
@@ -32,19 +36,33 @@ template <int Dim> struct Drain {
 		double pressureAt(const Eigen::Matrix<double, Dim, 1>& x) const
 		{
 			const double z = up * x[axis];
-			return weight * (std::max(height - z, 0.) - (still - z));
+			return weight * (std::max(height - z, 0.) - (std::isnan(still) ? 0 : still - z));
 		}
 		bool isInAir(const Eigen::Matrix<double, Dim, 1>& x) const { return up * x[axis] > height; }
 	};
 
 	Surface<Dim>         surface; ///< at the start of the step, with sides of at most `pieceLimit`
-	Kind                 kind  = Kind::pressure;
-	double               given = 0; ///< at the end of the step: excess pressure [Pa], or volume that leaves by area and time [m/s]
-	std::optional<Level> level {};  ///< in place of a pressure that is the same everywhere
+	Kind                 kind   = Kind::pressure;
+	double               given  = 0;    ///< at the end of the step: excess pressure [Pa], or volume that leaves by area and time [m/s], of rain that enters
+	double               driest = -1e8; ///< least pressure to which evaporation goes on [Pa]
+	std::optional<Level> level {};      ///< in place of a pressure that is the same everywhere
 	/// Water passes its skin as it passes so many parts of a cell: conductance over conductivity and cell size.
 	double      conductance = 30;
 	std::string name        = "a drain";
 	double      out         = 0; ///< volume that has left by it in the last step that was accepted [m3]
+};
+
+/// Factor by which suction acts on the grains (Bishop).
+enum class Bishop { effectiveSaturation, saturation };
+
+/// Water that has its weight, and the pressure over that of the air: pores need not be full.
+template <int Dim> struct WholeWater {
+	Eigen::Matrix<double, Dim, 1> weight;     ///< by volume [N/m3]
+	double                        factor = 1; ///< of the weight that the soil carries, at the end of the step
+	Bishop                        bishop = Bishop::effectiveSaturation;
+	std::vector<double>           saturation {}; ///< of each point, as the last accepted step has left it; NaN: that of its pressure
+
+	std::vector<std::shared_ptr<const Retention>> curves {}; ///< those that Pores refer to
 };
 
 template <int Dim> struct SoilWater {
@@ -55,6 +73,8 @@ template <int Dim> struct SoilWater {
 	double                  stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
 	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
 	std::vector<Drain<Dim>> drains {};
+
+	std::optional<WholeWater<Dim>> whole {}; ///< none: pressures are in excess of still water, and all pores are full
 
 	/// Tolerances on the errors that the length of a step leaves in displacements [m] and pressures [Pa], as roots
 	/// of mean squares over the volume. Both need the growth in the last step.

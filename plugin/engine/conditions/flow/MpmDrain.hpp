@@ -13,6 +13,8 @@ public:
 	gimpm::LoadCurve::Knees levels; // empty: level
 	Real                    flux    = std::numeric_limits<Real>::quiet_NaN();
 	bool                    seepage = false;
+	Real                    rain    = std::numeric_limits<Real>::quiet_NaN();
+	Real                    driest  = -1e8;
 	gimpm::LoadCurve::Knees curve; // empty: one
 	Real                    conductance = 30;
 	Real                    discharge   = std::numeric_limits<Real>::quiet_NaN();
@@ -20,7 +22,7 @@ public:
 	YADE_API_NAME(MpmDrain)
 	static const char* doc()
 	{
-		return "Part of the surface of the body by which water of an MpmFlow leaves or enters; it moves with the body. One of *pressure*, *level*, *flux* says how. "
+		return "Part of the surface of the body by which water of an MpmFlow leaves or enters; it moves with the body. One of *pressure*, *level*, *flux*, *rain* says how. "
 		       "Where there is no drain nothing passes.\n\n"
 		       "Water passes as through a thin skin (*conductance*), so that the surface may cut cells anywhere.\n\n"
 		       "Set first: *surface* = mpm.surface(region, min=..., max=...). Page: plugin/docs/classes/MpmDrain.md.";
@@ -39,7 +41,13 @@ public:
 		v("flux", &MpmDrain::flux, 0, "Volume that leaves by area and time [m/s], whatever the pressure; < 0 enters. NaN, the default: see *pressure*.",
 		  admitting("a finite number [m/s], or NaN, the default", [](Real value) { return !std::isinf(value); }));
 		v("seepage", &MpmDrain::seepage, 0, "True: water can leave only; where its pressure is below that outside nothing passes.");
-		v("curve", &MpmDrain::curve, 0, "Factor [-] of *pressure* or *flux* as a sequence of (time [s], factor); empty, the default: 1.",
+		v("rain", &MpmDrain::rain, 0,
+		  "Volume that enters by area and time [m/s] until the surface is full, and runs off then; < 0 evaporates, down to *driest*. For *MpmFlow.total*; NaN, the default: see *pressure*.",
+		  admitting("a finite number [m/s], or NaN, the default", [](Real value) { return !std::isinf(value); }));
+		v("driest", &MpmDrain::driest, 0,
+		  "Least pressure [Pa] < 0 of a surface from which water evaporates; -1e8, the default, is that of air of half humidity.",
+		  admitting("a finite number < 0 [Pa]", [](Real value) { return std::isfinite(value) && value < 0; }));
+		v("curve", &MpmDrain::curve, 0, "Factor [-] of *pressure*, *flux* or *rain* as a sequence of (time [s], factor); empty, the default: 1.",
 		  curveOrNothing);
 		v("conductance", &MpmDrain::conductance, 0,
 		  "Conductance of the skin over the conductivity of the soil by cell [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",

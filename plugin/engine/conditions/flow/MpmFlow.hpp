@@ -12,6 +12,8 @@ public:
 	Real                         stabilisation     = std::numeric_limits<Real>::quiet_NaN();
 	Real                         ghost             = 0.01;
 	Real                         pressureTolerance = std::numeric_limits<Real>::infinity();
+	bool                         total             = false;
+	string                       bishop            = "effective saturation";
 	vector<shared_ptr<MpmDrain>> drains;
 	Real                         waterIn = 0, waterOut = 0, waterStored = 0, work = 0;
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
@@ -26,7 +28,7 @@ public:
 	{
 		return "Water that flows through the soil while it deforms: consolidation. Its pressure over that of still water (MpmWater), *MpmState.excessPressure*, is solved for "
 		       "together with the displacements, step by step in time: O.dt and O.time are seconds. All materials need *conductivity* and *porosity*.\n\n"
-		       "The soil is saturated everywhere. *drains* say where water leaves; elsewhere nothing passes.\n\n"
+		       "The soil is saturated everywhere, unless *total* and *MpmMaterial.retention* are given. *drains* say where water leaves; elsewhere nothing passes.\n\n"
 		       "Set first: *drains*, and time steps that grow as what happens slows down. Page: plugin/docs/classes/MpmFlow.md.";
 	}
 	template <class V> static void attributes(V&& v)
@@ -42,6 +44,10 @@ public:
 		v("pressureTolerance", &MpmFlow::pressureTolerance, 0,
 		  "Largest estimated error of pressures in a step [Pa] > 0, with *MpmNewton.stepTolerance*; steps beyond it are cut, and grow again, up to O.dt. inf: not checked.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
+		v("total", &MpmFlow::total, 0,
+		  "True: *MpmState.excessPressure* is the whole pressure, over that of the air, and gravity drives the water: for rain, and soil with *MpmMaterial.retention*. There is no still water then.");
+		v("bishop", &MpmFlow::bishop, 0, "Factor by which suction acts on the grains, with *total*: 'effective saturation' or 'saturation'.",
+		  oneOf("effective saturation", "saturation"));
 		v("drains", &MpmFlow::drains, 0, "Drains, through which water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
 		v("waterIn", &MpmFlow::waterIn, readonly,
 		  "Volume of water [m³] that has entered by drains since the first step; per metre of thickness in plane strain.");

@@ -92,6 +92,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
+	if (from->total) beginWhole(around);
 	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
 	takeNodes();
 	takeDrains(model, around);
@@ -106,11 +107,14 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
 	isRamp     = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
 	model.fields.push_back(gimpm::pressureField(water, *model.division, sum / model.grid.cellSize));
-	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::StepContext<Dim>& step, const gimpm::State&) {
+	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::StepContext<Dim>& step, const gimpm::State& begin) {
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
-		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step);
+		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step, begin);
 	});
 	model.freeze = [this, field = model.fields.size() - 1, term = model.coupledTerms.size() - 1](gimpm::Model<Dim>& at) {
+		if (water.whole)
+			throw std::invalid_argument(
+			        "flow.total = True: mpm.strengthReduction does not yet go with pores that need not be full; leave total out, or give pressures by an MpmWater.");
 		at.fields.erase(at.fields.begin() + field);
 		at.coupledTerms.erase(at.coupledTerms.begin() + term);
 		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step); });
@@ -133,7 +137,9 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 		if (differ) water.ownPores.push_back(poresOf(points[p], own.of(*points[p].material, points[p].state->parameters), from->unitWeight));
 		else if (std::isnan(ofMaterial.porosity))
 			ofMaterial = poresOf(points[p], *points[p].material, from->unitWeight);
-		const gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
+		gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
+		pores.retention     = curveOf(points[p]);
+		if (water.whole) water.whole->saturation.push_back(points[p].state->saturation);
 		water.pressure.push_back(points[p].state->excessPressure);
 		const Real J = around.cloud.volumeRatio(p);
 		if (!pores.areOpen(J))
@@ -144,8 +150,13 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 	}
 }
 
+// Pressures that points have been given count, not what the nodes had before.
 template <int Dim> void Flows<Dim>::takeNodes()
 {
+	if (water.whole) {
+		const auto& known = water.whole->saturation;
+		if (std::any_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); })) return;
+	}
 	for (size_t i = 0; i + 3 < from->nodes.size(); i += 4) {
 		gimpm::Index<Dim> node;
 		for (int a = 0; a < Dim; ++a)
@@ -173,20 +184,27 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";
 		requireDimension<Dim>(*drain.surface, name);
-		if (drain.hasLevel() && !still)
+		if (!std::isnan(drain.rain) && !from->total)
+			throw std::invalid_argument(
+			        name + ".rain = " + textOf(drain.rain)
+			        + " needs MpmFlow(total=True), by which pressures are those of the water; or give flux.");
+		if (drain.hasLevel() && !still && !from->total)
 			throw std::invalid_argument(
 			        name + (drain.levels.empty() ? ".level = " + textOf(drain.level) : string(".levels"))
 			        + " is compared with the level of still water: it needs one MpmWater(level=...) in water, or give pressure.");
-		if (drain.hasLevel()) requireBelow(drain, name, heightOf(*still), highest);
+		if (drain.hasLevel() && still) requireBelow(drain, name, heightOf(*still), highest);
 		gimpm::Drain<Dim> made;
 		made.surface = coreSurface<Dim>(*drain.surface);
 		made.surface.refine(gimpm::pieceLimit * model.grid.cellSize);
 		made.kind        = !std::isnan(drain.flux) ? gimpm::Drain<Dim>::Kind::flux
+		               : !std::isnan(drain.rain)   ? gimpm::Drain<Dim>::Kind::rain
 		               : drain.seepage             ? gimpm::Drain<Dim>::Kind::seepage
 		                                           : gimpm::Drain<Dim>::Kind::pressure;
 		made.conductance = drain.conductance;
+		made.driest      = drain.driest;
 		made.name        = name;
-		if (drain.hasLevel()) made.level = { drain.levelAt(around.begin), heightOf(*still), from->unitWeight, axis, up[axis] };
+		const Real none  = std::numeric_limits<Real>::quiet_NaN();
+		if (drain.hasLevel()) made.level = { drain.levelAt(around.begin), still ? heightOf(*still) : none, from->unitWeight, axis, up[axis] };
 		water.drains.push_back(std::move(made));
 	}
 }
@@ -216,14 +234,15 @@ template <int Dim> Work Flows<Dim>::work(const StepOutcome<Dim>&) const
 	return sum;
 }
 
-template <int Dim> void Flows<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&)
+template <int Dim> void Flows<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>& load)
 {
+	if (water.whole) water.whole->factor = load.ofGravity.value_or(load.factor).value;
 	water.duration = step.to - step.from;
 	shortest       = std::min(shortest, water.duration);
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain  = *from->drains[i];
 		const Real      factor = drain.curve.empty() ? 1 : gimpm::LoadCurve(drain.curve).valueAt(step.looked);
-		water.drains[i].given  = factor * (std::isnan(drain.flux) ? drain.pressure : drain.flux);
+		water.drains[i].given  = factor * (!std::isnan(drain.rain) ? drain.rain : !std::isnan(drain.flux) ? drain.flux : drain.pressure);
 		if (auto& level = water.drains[i].level) level->height = drain.levelAt(step.looked);
 	}
 }
@@ -253,6 +272,7 @@ template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 		MpmState& state      = *step.points[p].state;
 		state.excessPressure = water.pressure[p];
 		state.porePressure   = (std::isnan(state.porePressure) ? 0 : state.porePressure) + water.pressure[p];
+		if (water.whole) state.saturation = water.whole->saturation[p];
 		state.waterFlux.setZero();
 		state.waterFlux.template head<Dim>() = water.flux[p];
 	}

@@ -20,17 +20,20 @@ public:
 	std::map<string, string> warnings() const override;
 
 private:
-	void takePoints(const Surroundings<Dim>&, const gimpm::Division&);
-	void takeNodes();
-	void takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
-	void keepNodes();
+	void                    beginWhole(const Surroundings<Dim>&);
+	const gimpm::Retention* curveOf(const MaterialPoint&);
+	void                    takePoints(const Surroundings<Dim>&, const gimpm::Division&);
+	void                    takeNodes();
+	void                    takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
+	void                    keepNodes();
 
-	shared_ptr<MpmFlow>   from;
-	gimpm::SoilWater<Dim> water;
-	shared_ptr<MpmWater>  still;                                              // null: there is none with a level
-	Real                  acrossCell = std::numeric_limits<Real>::infinity(); // time in which pressures spread over a cell where they do fastest [s]
-	Real                  shortest   = acrossCell;                            // step [s]
-	bool                  isRamp     = false;                                 // the loads grow within the first second, as nobody has said otherwise
+	shared_ptr<MpmFlow>                                    from;
+	std::map<const MpmRetention*, const gimpm::Retention*> curves;
+	gimpm::SoilWater<Dim>                                  water;
+	shared_ptr<MpmWater>                                   still; // null: there is none with a level
+	Real acrossCell = std::numeric_limits<Real>::infinity();      // time in which pressures spread over a cell where they do fastest [s]
+	Real shortest   = acrossCell;                                 // step [s]
+	bool isRamp     = false;                                      // the loads grow within the first second, as nobody has said otherwise
 };
 
 } // namespace yade

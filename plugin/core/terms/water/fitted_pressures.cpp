@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/water/fitted_pressures.hpp"
+#include "core/terms/water/flow_point.hpp"
+#include <Eigen/Eigenvalues>
+#include <optional>
+
+namespace gimpm {
+namespace {
+
+/// Weighted sums about a node, of 1 and the distances along the axes over the size of a cell.
+template <int Dim> struct Moments {
+	using Vector = Eigen::Matrix<double, Dim + 1, 1>;
+	using Matrix = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+
+	Matrix of        = Matrix::Zero();
+	Vector pressures = Vector::Zero();
+
+	void add(double weight, const Vec<Dim>& away, double pressure)
+	{
+		Vector x;
+		x << 1, away;
+		of += weight * x * x.transpose(), pressures += weight * pressure * x;
+	}
+	/// The same sums about a node that is `offset` cells farther along the axes.
+	void addMoved(const Moments& other, const Vec<Dim>& offset)
+	{
+		Matrix move                              = Matrix::Identity();
+		move.template bottomLeftCorner<Dim, 1>() = offset;
+		of += move * other.of * move.transpose(), pressures += move * other.pressures;
+	}
+	std::optional<double> atNode() const
+	{
+		constexpr double                            least = 1e-4; // of the eigenvalues, below which points are as good as on a line
+		const Eigen::SelfAdjointEigenSolver<Matrix> axes(of);
+		const Vector&                               found = axes.eigenvalues();
+		if (!(found[0] > least * found[Dim])) return std::nullopt;
+		return (axes.eigenvectors() * (axes.eigenvectors().transpose() * pressures).cwiseQuotient(found))[0];
+	}
+	double mean() const { return of(0, 0) > 0 ? pressures[0] / of(0, 0) : 0; }
+};
+
+} // namespace
+
+template <int Dim>
+Eigen::VectorXd fittedPressures(const CloudBasis<Dim>& basis, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const std::vector<double>& pressure)
+{
+	std::vector<Moments<Dim>> around(basis.nodes.size());
+	for (const auto& patch : basis.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis, i, patch);
+			const int                 p = basis.order[i];
+			for (int n = 0; n < f.count; ++n) {
+				if (patch.node[n] < 0) continue;
+				const Index<Dim> node = Grid<Dim>::index(basis.nodes[patch.node[n]]);
+				Vec<Dim>         away;
+				for (int a = 0; a < Dim; ++a)
+					away[a] = (grid.imageNear(cloud.position[p][a], node[a], a) - grid.nodePosition(node)[a]) / grid.cellSize;
+				around[patch.node[n]].add(f.value[n] * cloud.volume0[p] * cloud.volumeRatio(p), away, pressure[p]);
+			}
+		}
+	Eigen::VectorXd fitted(Eigen::Index(basis.nodes.size()));
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
+		auto value = around[n].atNode();
+		if (!value) {
+			Moments<Dim> more;
+			for (int code = 0; code < (Dim == 2 ? 9 : 27); ++code) {
+				Index<Dim> offset;
+				for (int a = 0, rest = code; a < Dim; rest /= 3, ++a)
+					offset[a] = rest % 3 - 1;
+				const int other = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset)));
+				if (other >= 0) more.addMoved(around[other], offset.template cast<double>());
+			}
+			value = more.atNode().value_or(around[n].mean());
+		}
+		fitted[n] = *value;
+	}
+	return fitted;
+}
+
+template Eigen::VectorXd fittedPressures(const CloudBasis<2>&, const PointCloud<2>&, const Grid<2>&, const std::vector<double>&);
+template Eigen::VectorXd fittedPressures(const CloudBasis<3>&, const PointCloud<3>&, const Grid<3>&, const std::vector<double>&);
+
+} // namespace gimpm

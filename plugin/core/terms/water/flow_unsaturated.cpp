@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water in pores that need not be full, from step to step.
+#include "core/terms/water/flow.hpp"
+
+namespace gimpm {
+
+/// What points have more or less than the nodes say, as they have moved on the grid, goes to their nodes in the step.
+template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
+{
+	constexpr int nodes = windowNodes<Dim>;
+	const auto&   known = water_.whole->saturation;
+	saturationBefore_.assign(points_.size() * nodes, 0);
+	correction_.assign(points_.size(), 0);
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis_, i, patch);
+			const int                 p          = basis_.order[i];
+			double                    saturation = 0;
+			for (int n = 0; n < f.count; ++n) {
+				if (patch.node[n] < 0) continue;
+				const double S                                = saturationOf(*points_[p].pores, P[patch.node[n]]).value;
+				saturationBefore_[std::size_t(p) * nodes + n] = S;
+				saturation += f.value[n] * S;
+			}
+			if (!known.empty() && !std::isnan(known[p])) correction_[p] = (known[p] - saturation) * points_[p].content;
+		}
+}
+
+template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
+{
+	const Eigen::VectorXd P      = state.value(field);
+	double                stored = 0;
+	water_.whole->saturation.resize(points_.size());
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int                   p = basis_.order[i];
+			const PointFunctions<Dim>   f(basis_, i, patch);
+			const FlowPoint<Dim>        s(points_[p], patch, f, state.displacements(), P, water_.modulus);
+			const UnsaturatedPoint<Dim> u = unsaturated(p, patch, f, s, P);
+			for (int n = 0; n < f.count; ++n)
+				stored += points_[p].volume / points_[p].ratio * f.value[n] * u.stored[n];
+			water_.whole->saturation[p] = u.content / u.filled;
+			water_.flux[p]              = -s.kappa.value * u.permeability.value * u.drive;
+		}
+	water_.stored = division_.sum(stored);
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd&);                                                                                     \
+	template void Flow<Dim>::commitSaturation(const State&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

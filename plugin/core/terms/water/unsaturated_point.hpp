@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water in the pores of one point that need not be full, at an iterate.
+#pragma once
+#include "core/materials/retention.hpp"
+#include "core/terms/water/flow_point.hpp"
+#include "core/terms/water/soil_water.hpp"
+
+namespace gimpm {
+
+/// Degree of saturation and relative permeability; one in soil that is always saturated.
+inline Retention::Value saturationOf(const Pores& pores, double pressure)
+{
+	return pores.retention ? pores.retention->saturation(pressure) : Retention::Value { 1, 0 };
+}
+inline Retention::Value permeabilityOf(const Pores& pores, double pressure)
+{
+	return pores.retention ? pores.retention->relativePermeability(pressure) : Retention::Value { 1, 0 };
+}
+
+/// Pressure that acts on the grains: chi p, with Bishop's factor chi of a suction, and one of a pressure.
+inline Retention::Value pressureOnGrains(const Pores& pores, Bishop bishop, double pressure)
+{
+	if (!pores.retention || pressure >= 0) return { pressure, 1 };
+	const auto chi = bishop == Bishop::saturation ? pores.retention->saturation(pressure) : pores.retention->effective(pressure);
+	return { chi.value * pressure, chi.value + chi.slope * pressure };
+}
+
+/// Storage is lumped: each node has the saturation of its own pressure, so that fronts into dry soil do not undershoot
+/// (Celia and others 1990). The increment is the difference of the contents at the ends of the step.
+template <int Dim> struct UnsaturatedPoint {
+	static constexpr int nodes = windowNodes<Dim>;
+
+	double           stored[nodes] {};     ///< by node: growth of the content over the initial volume [-]
+	double           saturation[nodes] {}; ///< of each node
+	double           capacity[nodes] {};   ///< derivative of the content by its pressure [1/Pa]
+	double           filled;               ///< content of full pores, over the initial volume [-]
+	double           content = 0;          ///< of water [-]
+	Retention::Value push;                 ///< pressure on the grains [Pa]
+	Retention::Value permeability;         ///< relative
+	Vec<Dim>         drive;                ///< gradient of the pressure less the weight of the water [Pa/m]
+
+	/// `before`: saturations of the nodes as the step begins. `correction`: what the point has more than they say.
+	template <class Pressures>
+	UnsaturatedPoint(
+	        const WholeWater<Dim>& water, const PorePoint& point, const double* before, double correction, const Patch<Dim>& patch,
+	        const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const Pressures& P)
+	        : filled(point.content + s.content)
+	        , push(pressureOnGrains(*point.pores, water.bishop, s.pressure))
+	        , permeability(permeabilityOf(*point.pores, s.pressure))
+	        , drive(s.pressureGradient - water.weight)
+	{
+		for (int n = 0; n < f.count; ++n) {
+			if (patch.node[n] < 0) continue;
+			const auto S  = saturationOf(*point.pores, P[patch.node[n]]);
+			saturation[n] = S.value, capacity[n] = S.slope * filled;
+			stored[n] = S.value * s.content + (S.value - before[n]) * point.content - correction;
+			content += f.value[n] * S.value * filled;
+		}
+	}
+};
+
+} // namespace gimpm
