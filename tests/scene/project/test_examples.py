@@ -587,6 +587,16 @@ def test_consolidation(yade):
 	assert (run.folder / 'out/consolidation/consolidation.png').stat().st_size > 20000
 
 
+def test_rain(yade):
+	"""Heads and factors against closed forms and finite volumes, on coarse cells."""
+	run = yade(root / 'examples' / 'rain' / 'rain.py', '--cells', 20, '--longest', 0.05)
+	depth, off, lost = numbers(r'front: (\S+) m below the top after 24 h, (\S+) % of .* water lost (\S+)', run.stdout)
+	assert abs(off) < 8 and lost < 1e-6
+	assert numbers(r'closed form, (\S+) % of their range', run.stdout)[0] < 2
+	assert all(abs(float(error)) < 1 for error in re.findall(r'^slope: .* (\S+) %$', run.stdout, re.MULTILINE))
+	assert (run.folder / 'out/rain/rain.png').stat().st_size > 20000
+
+
 def test_layers_with_time_between_them(yade):
 	"""Pressures fall and safety grows while one waits, and in the end all has drained."""
 	run = yade(root / 'examples' / 'embankment' / 'waiting.py', '--cellSize', 1, '--layers', 2)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Soil that is not saturated, rain and evaporation, through the classes of YADE."""
+import pytest
+
+setting = '''
+import json
+
+import numpy as np
+from yade import mpm
+
+w, k = 9810., 1e-5
+sand = lambda **more: MpmVanGenuchten(**(dict(alpha=3.35, n=2, residual=.2) | more))
+
+def column(head=lambda y: -2., cells=10, base=-2., young=1e9, retention=True, drained=True, top=dict(rain=2e-6), engine=MpmImplicitEngine, **flow):
+	"""One cell wide, 1 m high, rain on its top, a head at its base."""
+	O.reset()
+	h = 1 / (cells + .3)
+	O.materials.append(MpmElasticMat(young=young, poisson=0.2, density=2000, conductivity=k, porosity=.4, retention=sand() if retention else None, label='soil'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (h, 0), (h, 1), (0, 1)]), grid, 2, 'soil'))
+	mpm.assign(excessPressure=[w * head(y) for y in mpm.arrays()['pos'][:, 1]])
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(h, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	drains = ([MpmDrain(surface=[(h, 1), (0, 1)], **top)] if top else []) + [MpmDrain(surface=[(0, 0), (h, 0)], pressure=base * w)] * drained
+	O.engines = [engine(grid=grid, boundaries=sides, gravity=(0, -9.81, 0), flow=MpmFlow(**(dict(total=True, drains=drains) | flow)), loadCurve=[(0, 1), (1, 1)], verbosity=0)]
+	O.engines[0].newton.tolerance = 1e-10
+	return O.engines[0]
+
+def refusal(change=lambda solver: None, **settings):
+	solver = column(**settings)
+	O.dt = 10
+	try:
+		change(solver)
+		O.step()
+	except Exception as error: return f'{type(error).__name__}: {error}'
+	return ''
+'''
+
+
+def test_rain_is_counted_and_a_saved_scene_goes_on(yade):
+	counted, content, range_, names, same = yade(
+	        setting + '''
+def content():
+	points = mpm.arrays()
+	return float((points['volume'] * (1 - .6 * np.array([O.bodies[int(i)].state.volume0 for i in points['id']]) / points['volume']) * points['saturation']).sum())
+
+solver = column()
+O.dt = 100
+O.step()
+first, before = content(), solver.flow.waterStored
+for n in range(12):
+	if n == 8: O.save('wet.yade.gz')
+	O.dt *= 1.2
+	O.step()
+data, points = solver.plotData(), mpm.arrays()
+dts = [100 * 1.2**n for n in range(9, 13)]
+gained = content() - first, solver.flow.waterStored - before
+O.load('wet.yade.gz')
+for dt in dts:
+	O.dt = dt
+	O.step()
+again = mpm.arrays()
+print(json.dumps([[data[name] for name in ('waterIn', 'waterOut', 'waterStored')], gained, [float(points['saturation'].min()), float(points['saturation'].max())],
+	sorted(points), all((points[name] == values).all() for name, values in again.items() if name != 'id')]))
+'''
+	).result
+	came, left, stored = counted
+	assert came > 0 and came - left - stored == pytest.approx(0, abs=1e-10 * came)
+	assert content[0] == pytest.approx(content[1], rel=1e-9), 'the points have what has been counted'
+	assert 0.2 < range_[0] < range_[1] < 1
+	assert {'saturation', 'excessPressure', 'porePressure', 'waterFlux'} <= set(names)
+	assert same, 'a scene that was saved goes on with the same bits'
+
+
+def test_suction_at_rest_stays(yade):
+	moved, flux, pressures, reaction, weight = yade(
+	        setting + '''
+solver = column(lambda y: .3 - y, base=.3, top=None, young=1e7)
+for _ in range(3):
+	O.dt = 1e9
+	O.step()
+before = mpm.arrays()['pos']
+O.step()
+points = mpm.arrays()
+saturated = 1 - .6 * np.array([O.bodies[int(i)].state.volume0 for i in points['id']]) / points['volume']
+weight = 9.81 * sum(O.bodies[int(i)].state.mass for i in points['id']) + w * float((points['volume'] * saturated * points['saturation']).sum()) - w * .4 * sum(O.bodies[int(i)].state.volume0 for i in points['id'])
+print(json.dumps([float(abs(points['pos'] - before).max()), float(abs(points['waterFlux']).max()), float(abs(points['porePressure'] - w * (.3 - points['pos'][:, 1])).max()),
+	solver.reactions[2][1], weight]))
+'''
+	).result
+	assert moved < 1e-12 and flux < 1e-10 * 1e-5 and pressures < 1e-10 * 9810
+	assert reaction == pytest.approx(weight, rel=1e-6), 'the weight is that of the grains and of the water that is there'
+
+
+def test_rain_ponds_and_fields_count(yade):
+	rates, fluxes = yade(
+	        setting + '''
+solver = column(cells=20, top=dict(rain=3e-5))
+rates = []
+O.dt = 30
+for _ in range(40):
+	O.step()
+	rates.append(-solver.flow.drains[0].discharge / (solver.grid.cellSize * k))
+solver = column(base=-1, top=dict(rain=2e-6))
+mpm.assign(conductivity=[1e-5 if y < .5 else 2e-5 for y in mpm.arrays()['pos'][:, 1]])
+O.dt = 1e9
+for _ in range(3): O.step()
+points = mpm.arrays()
+print(json.dumps([rates, [float(points['waterFlux'][:, 1].min()), float(points['waterFlux'][:, 1].max())]]))
+'''
+	).result
+	assert rates[0] == pytest.approx(3) and rates[-1] < 2.5
+	first = next(i for i, rate in enumerate(rates) if rate < 2.999)
+	assert all(rate < 3 for rate in rates[first:]), 'the switch does not ring'
+	assert fluxes[0] == pytest.approx(-2e-6, rel=0.05) and fluxes[1] == pytest.approx(-2e-6, rel=0.05)
+
+
+def test_curves_have_their_saturation(yade):
+	found = yade(
+	        setting + '''
+found = []
+for curve in (sand(), sand(saturated=.9, permeability='gardner'), MpmGardner(alpha=2, residual=.1), MpmBrooksCorey(entry=.5, exponent=1.2),
+              MpmRetentionTable(saturations=[(0, .95), (1, .5), (4, .2)], permeabilities=[(0, 1), (4, 1e-3)])):
+	column(top=None)
+	O.materials[0].retention = curve
+	O.dt = 1
+	O.step()
+	found.append(float(mpm.arrays()['saturation'].mean()))
+print(json.dumps(found))
+'''
+	).result
+	Se = (1 + (3.35 * 2)**2)**-0.5
+	from math import exp
+	assert found == pytest.approx([0.2 + 0.8 * Se, 0.2 + 0.7 * Se, 0.1 + 0.9 * exp(-4), (0.5 / 2)**1.2, 0.4], rel=1e-4)
+
+
+def test_what_does_not_go_with_it_is_refused_by_name(yade):
+	said = yade(
+	        setting + '''
+def dynamic(solver): O.dt = 1e-4
+def water(solver): solver.water = [MpmWater(level=1)]
+def distributed(solver): solver.distributed = True
+def table(solver): O.materials[0].retention = MpmRetentionTable(saturations=[(0, 1), (1, .5)])
+def residual(solver): O.materials[0].retention.residual, O.materials[0].retention.saturated = .6, .5
+def base(solver): O.materials[0].retention = MpmRetention()
+def refined(solver): solver.grid.refinements = [MpmRefinement(min=(-inf, .5, -inf))]
+def reduced(solver):
+	O.materials.append(MpmMohrCoulombMat(young=1e9, poisson=.2, density=2000, cohesion=1e4, frictionAngle=.5, conductivity=k, porosity=.4, retention=sand()))
+	for b in O.bodies: b.material = O.materials[1]
+	O.step()
+	mpm.strengthReduction()
+def both(solver): solver.flow.drains[0].flux = 1e-6
+print(json.dumps([refusal(total=False, top=None), refusal(total=False, retention=False), refusal(dynamic, engine=MpmDynamicEngine), refusal(water), refusal(distributed), refusal(table),
+	refusal(residual), refusal(base), refusal(refined), refusal(reduced), refusal(both)]))
+'''
+	).result
+	for text, words in zip(said, [
+	        ('retention curve', 'total=True'), ('rain = 2e-06', 'total=True'), ('MpmDynamicEngine', 'total = True'), ('water[0]', "where = 'outside'"), ('distributed', 'total = True'),
+	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('refinement', ), ('strengthReduction', 'total'), ('flux', 'rain')
+	]):
+		assert all(word in text for word in words), (text, words)
