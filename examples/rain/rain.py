@@ -22,23 +22,23 @@ from options import compared, readOptions
 
 options = readOptions('Rain and suction.',
         scene=('all', "'all', or one of 'front', 'rain' and 'slope'"),
-        cells=(40, 'over the height of the columns and of the slope'),
-        cut=(0.3, 'part of a cell that soil fills where the surface cuts one'),
-        longest=(0.02, 'longest step, over the time of the scene'))
+        cells=(80, 'over the height of the columns and of the slope'),
+        cut=(0.5, 'part of a cell that soil fills where the surface cuts one'),
+        longest=(0.005, 'longest step, over the time of the scene'))
 weight, stiff = 9810., 1e9  # of water [N/m3]; Young's modulus of soil that hardly moves [Pa]
 
 
 def scene(height, gravity, pressure, drains, **soil):
 	"""One cell wide, y along the normal of the ground. `pressure`: as it begins, a function of y."""
 	O.reset()
-	O.materials.append(MpmElasticMat(young=stiff, poisson=0.3, density=1900, label='soil', **soil))
+	O.materials.append(MpmElasticMat(young=stiff, poisson=0.3, density=19e3 / 9.81, label='soil', **soil))
 	h = height / (options.cells + options.cut)
 	grid = MpmGrid(cellSize=h, period=(3 * h, 0, 0))
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3 * h, 0), (3 * h, height), (0, height)]), grid, 2, 'soil'))
 	mpm.assign(excessPressure=[pressure(y) for y in mpm.arrays()['pos'][:, 1]])
 	top, base = [(3 * h, height), (0, height)], [(0, 0), (3 * h, 0)]
 	flow = MpmFlow(total=True, drains=[MpmDrain(surface=surface, conductance=300, **given) for surface, given in zip((top, base), drains)])
-	O.engines = [MpmImplicitEngine(grid=grid, gravity=gravity, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], flow=flow, loadCurve=[(0, 1), (1, 1)], verbosity=0)]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=gravity, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], flow=flow, newton=MpmNewton(tolerance=1e-9), loadCurve=[(0, 1), (1, 1)], verbosity=0)]
 	return O.engines[0]
 
 
