@@ -134,7 +134,7 @@ public:
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
 			const int a        = patchShapes<Dim>[patch.span].inWindow[n];
-			wet_.saturation[a] = u.saturation[n], wet_.capacity[a] = u.capacity[n], wet_.stored[a] = u.stored[n];
+			wet_.saturation[a] = u.saturation[n], wet_.capacity[a] = u.capacity[n], wet_.stored[a] = u.stored[n], wet_.opening[a] = u.opening[n];
 			wet_.drive[a] = u.drive.dot(now.gradient[n]);
 		}
 		addForcesUnsaturated(point, s, u);
@@ -171,7 +171,7 @@ private:
 		Row value, hoop, along, gradient[Dim], dilation[Dim];
 	};
 	struct Wetness {
-		Row saturation, capacity, stored, drive;
+		Row saturation, capacity, stored, opening, drive;
 	};
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
@@ -263,7 +263,7 @@ private:
 
 	void addForcesUnsaturated(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
-		const double V = point.volume * s.J, V0 = point.volume / point.ratio, flow = duration_ * V * s.density * s.kappa.value * u.permeability.value;
+		const double V = point.volume * s.J, V0 = point.volume / point.ratio, flow = duration_ * V * s.density * s.kappa.value * u.permeability;
 		const double gained = V0 * (u.content - point.pores->porosity);
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
@@ -310,15 +310,16 @@ private:
 	}
 	void addDarcy(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
-		const double full = duration_ * point.volume * s.J * s.density * s.kappa.value, flow = full * u.permeability.value,
-		             led = flow * (1 + s.kappa.logDerivative), opened = full * u.permeability.slope + flow / modulus_;
+		const double full = duration_ * point.volume * s.J * s.density * s.kappa.value, flow = full * u.permeability,
+		             led = flow * (1 + s.kappa.logDerivative);
 		for (int m = 0; m < count_; ++m) {
 			const int a        = own_[m];
 			Row       products = {};
 			for (int i = 0; i < Dim; ++i)
 				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
 			addTimes(pp_[a], flow, products);
-			addTimes(pp_[a], opened * wet_.drive[a], at_.value);
+			addTimes(pp_[a], full * wet_.drive[a], wet_.opening);
+			addTimes(pp_[a], flow / modulus_ * wet_.drive[a], at_.value);
 			for (int i = 0; i < Dim; ++i) {
 				addTimes(pu_[i][a], led * wet_.drive[a], at_.dilation[i]);
 				addTimes(pu_[i][a], -flow * s.pressureGradient[i], products);

@@ -40,7 +40,7 @@ template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
 			for (int n = 0; n < f.count; ++n)
 				stored += points_[p].volume / points_[p].ratio * f.value[n] * u.stored[n];
 			water_.whole->saturation[p] = u.content / u.filled;
-			water_.flux[p]              = -s.kappa.value * u.permeability.value * u.drive;
+			water_.flux[p]              = -s.kappa.value * u.permeability * u.drive;
 		}
 	water_.stored = division_.sum(stored);
 }

@@ -4,7 +4,8 @@
 
 namespace gimpm {
 
-template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& ofOwnPoints, const StepContext<Dim>& step)
+template <int Dim>
+FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& ofOwnPoints, const StepContext<Dim>& step, const std::vector<Vec<Dim>>& weights)
 {
 	auto pressures = ofOwnPoints;
 	step.division.extend(pressures);
@@ -18,6 +19,7 @@ template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<doubl
 				if (patch.node[n] < 0) continue;
 				Vec<Dim> push = -pushing * f.gradient[n];
 				push[0] -= pushing * f.hoop[n];
+				if (!weights.empty()) push -= f.value[n] * weights[p];
 				force_.template segment<Dim>(Dim * patch.node[n]) += push;
 				absoluteContributions_.template segment<Dim>(Dim * patch.node[n]) += push.cwiseAbs();
 			}

@@ -26,9 +26,12 @@ inline Retention::Value pressureOnGrains(const Pores& pores, Bishop bishop, doub
 }
 
 /// Storage is lumped: each node has the saturation of its own pressure, so that fronts into dry soil do not undershoot
-/// (Celia and others 1990). The increment is the difference of the contents at the ends of the step.
+/// (Celia and others 1990). The increment is the difference of the contents at the ends of the step. The permeability
+/// is for a quarter that of the nodes, else that at the pressure of the point: the first drives a front on in the cell
+/// where it is, the second holds it back, so that what enters under rain does not change from cell to cell.
 template <int Dim> struct UnsaturatedPoint {
-	static constexpr int nodes = windowNodes<Dim>;
+	static constexpr int    nodes   = windowNodes<Dim>;
+	static constexpr double ofNodes = 0.25;
 
 	double           stored[nodes] {};     ///< by node: growth of the content over the initial volume [-]
 	double           saturation[nodes] {}; ///< of each node
@@ -36,7 +39,8 @@ template <int Dim> struct UnsaturatedPoint {
 	double           filled;               ///< content of full pores, over the initial volume [-]
 	double           content = 0;          ///< of water [-]
 	Retention::Value push;                 ///< pressure on the grains [Pa]
-	Retention::Value permeability;         ///< relative
+	double           opening[nodes] {};    ///< derivative of the relative permeability by its pressure [1/Pa]
+	double           permeability;         ///< relative
 	Vec<Dim>         drive;                ///< gradient of the pressure less the weight of the water [Pa/m]
 
 	/// `before`: saturations of the nodes as the step begins. `correction`: what the point has more than they say.
@@ -46,11 +50,16 @@ template <int Dim> struct UnsaturatedPoint {
 	        const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const Pressures& P)
 	        : filled(point.content + s.content)
 	        , push(pressureOnGrains(*point.pores, water.bishop, s.pressure))
-	        , permeability(permeabilityOf(*point.pores, s.pressure))
+	        , permeability(0)
 	        , drive(s.pressureGradient - water.weight)
 	{
+		const auto here = permeabilityOf(*point.pores, s.pressure);
+		permeability    = (1 - ofNodes) * here.value;
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
+			const auto k = permeabilityOf(*point.pores, P[patch.node[n]]);
+			permeability += ofNodes * f.value[n] * k.value;
+			opening[n]    = f.value[n] * ((1 - ofNodes) * here.slope + ofNodes * k.slope);
 			const auto S  = saturationOf(*point.pores, P[patch.node[n]]);
 			saturation[n] = S.value, capacity[n] = S.slope * filled;
 			stored[n] = S.value * s.content + (S.value - before[n]) * point.content - correction;

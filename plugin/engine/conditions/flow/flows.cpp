@@ -112,12 +112,9 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step, begin);
 	});
 	model.freeze = [this, field = model.fields.size() - 1, term = model.coupledTerms.size() - 1](gimpm::Model<Dim>& at) {
-		if (water.whole)
-			throw std::invalid_argument(
-			        "flow.total = True: mpm.strengthReduction does not yet go with pores that need not be full; leave total out, or give pressures by an MpmWater.");
 		at.fields.erase(at.fields.begin() + field);
 		at.coupledTerms.erase(at.coupledTerms.begin() + term);
-		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step); });
+		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return frozen(step); });
 	};
 }
 

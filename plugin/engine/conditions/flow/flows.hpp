@@ -20,12 +20,13 @@ public:
 	std::map<string, string> warnings() const override;
 
 private:
-	void                    beginWhole(const Surroundings<Dim>&);
-	const gimpm::Retention* curveOf(const MaterialPoint&);
-	void                    takePoints(const Surroundings<Dim>&, const gimpm::Division&);
-	void                    takeNodes();
-	void                    takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
-	void                    keepNodes();
+	std::unique_ptr<gimpm::Term<Dim>> frozen(const gimpm::StepContext<Dim>&) const;
+	void                              beginWhole(const Surroundings<Dim>&);
+	const gimpm::Retention*           curveOf(const MaterialPoint&);
+	void                              takePoints(const Surroundings<Dim>&, const gimpm::Division&);
+	void                              takeNodes();
+	void                              takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
+	void                              keepNodes();
 
 	shared_ptr<MpmFlow>                                    from;
 	std::map<const MpmRetention*, const gimpm::Retention*> curves;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Water that has its weight, in pores that need not be full.
+#include "core/terms/water/frozen_pressures.hpp"
+#include "core/terms/water/unsaturated_point.hpp"
 #include "engine/conditions/flow/flows.hpp"
 
 namespace yade {
@@ -37,9 +39,26 @@ template <int Dim> const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoi
 	return curve;
 }
 
+// What suction holds, and the water that is there, stay in a study as they are.
+template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>& step) const
+{
+	if (!water.whole) return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step);
+	vector<Real>            pushes;
+	vector<gimpm::Vec<Dim>> weights;
+	for (size_t p = 0; p < water.pressure.size(); ++p) {
+		const gimpm::Pores& pores = water.ownPores.empty() ? water.pores[step.cloud.material[p]] : water.ownPores[p];
+		const Real          known = water.whole->saturation[p], full = step.cloud.volumeRatio(p) - 1 + pores.porosity;
+		const Real          S = std::isnan(known) ? gimpm::saturationOf(pores, water.pressure[p]).value : known;
+		pushes.push_back(gimpm::pressureOnGrains(pores, water.whole->bishop, water.pressure[p]).value);
+		weights.push_back(step.cloud.volume0[p] * (S * full - pores.porosity) * water.whole->factor * water.whole->weight);
+	}
+	return std::make_unique<gimpm::FrozenPressures<Dim>>(pushes, step, weights);
+}
+
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template void                    Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                                     \
-	template const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoint&);
+	template std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>&) const;                                                   \
+	template void                              Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                           \
+	template const gimpm::Retention*           Flows<Dim>::curveOf(const MaterialPoint&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
