@@ -205,8 +205,7 @@ namespace {
 		EXPECT_LT(column.water.drains[0].surface.vertices[0][1], 0.93);
 	}
 
-	/// All of the rain enters where the soil takes it in; else all of it until the surface is full, and less from
-	/// then on.
+	/// All of the rain enters where the soil takes it in; else until the surface is full, and less from then on.
 	TEST(Unsaturated, RainEntersUntilTheSurfaceIsFull)
 	{
 		constexpr double conductivity = 1e-5, duration = 60;

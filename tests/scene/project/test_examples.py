@@ -589,11 +589,11 @@ def test_consolidation(yade):
 
 def test_rain(yade):
 	"""Heads and factors against closed forms and finite volumes, on coarse cells."""
-	run = yade(root / 'examples' / 'rain' / 'rain.py', '--cells', 20, '--longest', 0.05)
+	run = yade(root / 'examples' / 'rain' / 'rain.py', '--cells', 20, '--longest', 0.02)
 	depth, off, lost = numbers(r'front: (\S+) m below the top after 24 h, (\S+) % of .* water lost (\S+)', run.stdout)
-	assert abs(off) < 8 and lost < 1e-6
-	assert numbers(r'closed form, (\S+) % of their range', run.stdout)[0] < 2
-	assert all(abs(float(error)) < 1 for error in re.findall(r'^slope: .* (\S+) %$', run.stdout, re.MULTILINE))
+	assert abs(off) < 3 and lost < 1e-6
+	assert numbers(r'closed form, (\S+) % of their range', run.stdout)[0] < 2.5
+	assert all(abs(float(error)) < 2.5 for error in re.findall(r'^slope: .* (\S+) %$', run.stdout, re.MULTILINE))
 	assert (run.folder / 'out/rain/rain.png').stat().st_size > 20000
 
 

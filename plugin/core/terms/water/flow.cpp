@@ -104,6 +104,18 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 	if (obstacle_.empty()) obstacle_ = enclosure(step);
 }
 
+/// Relative permeabilities as the step begins. Compliances become those with which suction acts on the grains.
+static std::vector<double> relativePermeabilities(const std::vector<PorePoint>& points, std::vector<double>& compliance)
+{
+	std::vector<double> relative;
+	for (std::size_t p = 0; p < points.size(); ++p) {
+		const Pores& pores = *points[p].pores;
+		relative.push_back(permeabilityOf(pores, points[p].pressure).value);
+		if (pores.retention) compliance[p] *= std::pow(pores.retention->effective(points[p].pressure).value, 2);
+	}
+	return relative;
+}
+
 /// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct. A face has what
 /// the less permeable of its two cells has: the pressure may bend where soils meet.
 template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
@@ -113,13 +125,10 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	const std::vector<char> all(step.basis.populatedLeaves().size(), 1);
 	cellConductivity_.assign(cells.size(), 0);
 	std::vector<double> compliance(points_.size());
-	std::vector<double> relative(water_.whole ? points_.size() : 0), permeability(water_.whole ? cells.size() : 0, 0.);
 	for (std::size_t p = 0; p < points_.size(); ++p)
 		compliance[p] = 1 / modulusOf(int(p));
-	for (std::size_t p = 0; p < relative.size(); ++p) {
-		relative[p] = permeabilityOf(*points_[p].pores, points_[p].pressure).value;
-		compliance[p] *= std::pow(points_[p].pores->retention ? points_[p].pores->retention->effective(points_[p].pressure).value : 1, 2);
-	}
+	const auto          relative = water_.whole ? relativePermeabilities(points_, compliance) : std::vector<double>();
+	std::vector<double> permeability(water_.whole ? cells.size() : 0, 0.);
 	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
 		const double part = within(points_[p].volume);
 		volume[cell] += part, softness[cell] += part * compliance[p];

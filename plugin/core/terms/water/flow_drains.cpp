@@ -108,8 +108,8 @@ template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step
 	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";
 }
 
-/// Derivative of the outflow: zero of a seepage face where the pressure would draw water in, and of a surface that
-/// takes in all of the rain, or loses all that can evaporate.
+/// Derivative of the outflow. It is zero of a seepage face where the pressure would draw water in, and of a surface
+/// that takes in all of the rain, or loses all that can evaporate.
 template <int Dim> double Flow<Dim>::conductanceNow(const Outlet& outlet, double pressure) const
 {
 	if (outlet.isRain) {

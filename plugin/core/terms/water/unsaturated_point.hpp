@@ -25,10 +25,11 @@ inline Retention::Value pressureOnGrains(const Pores& pores, Bishop bishop, doub
 	return { chi.value * pressure, chi.value + chi.slope * pressure };
 }
 
-/// Storage is lumped: each node has the saturation of its own pressure, so that fronts into dry soil do not undershoot
-/// (Celia and others 1990). The increment is the difference of the contents at the ends of the step. The permeability
-/// is for a quarter that of the nodes, else that at the pressure of the point: the first drives a front on in the cell
-/// where it is, the second holds it back, so that what enters under rain does not change from cell to cell.
+/// Lumped storage: each node has the saturation of its own pressure, so that fronts into dry soil do not undershoot
+/// (Celia and others 1990). The increment is the difference of the contents at the ends of the step.
+///
+/// The permeability is for a quarter that of the nodes, else that at the pressure of the point. The first drives a
+/// front on in the cell where it is, the second holds it back.
 template <int Dim> struct UnsaturatedPoint {
 	static constexpr int    nodes   = windowNodes<Dim>;
 	static constexpr double ofNodes = 0.25;
