@@ -312,7 +312,7 @@ print(json.dumps(said))
 	).result
 	expected = {
 	        'conductivity': 'has no conductivity [m/s]', 'porosity': 'has no porosity', 'percent': 'percent over 100', 'undrained': 'is undrained = True', 'dry': 'there is no drain through which',
-	        'away': 'flow.drains[0] has a vertex at', 'level': 'needs one MpmWater(level=...)', 'both': 'one of pressure, level, levels and flux', 'airAndWater': 'water can leave only without seepage', 'refined': 'cannot go with flow', 'rising': 'its level must stay',
+	        'away': 'flow.drains[0] has a vertex at', 'level': 'needs one MpmWater(level=...)', 'both': 'one of pressure, level, levels, flux and rain', 'airAndWater': 'water can leave only without seepage', 'refined': 'cannot go with flow', 'rising': 'its level must stay',
 	        'above': 'levels reach 0.8 m, above the still water', 'error': 'MpmNewton.stepTolerance = 0', 'index': 'needs conductivityIndex', 'explicit': "scheme = 'explicit'", 'midpoint': "take 'newmark'", 'timeTolerance': 'timeTolerance = '
 	}
 	assert set(said) == set(expected)
