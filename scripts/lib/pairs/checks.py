@@ -11,12 +11,13 @@ from yade import mpm, pack, utils
 from yade.wrapper import *
 
 from .features import refusals, refused
-from .scene import Scene, density, gravity, textOf, young
+from .kinds import kinds
+from .outcome import apart, resultantsOf, structuresOf
+from .scene import Scene, density, gravity
 from .view import View, views
 
 O = Omega()
-close = 1e-9  # part of the largest of the quantity, where round-off differs
-# Operations that are exact in binary numbers, and sum nothing in another order, keep the bits: see
+# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see
 # differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
 
@@ -26,7 +27,7 @@ class Run:
 
 	def __init__(self, scene, view):
 		self.scene, self.view, self.error = scene, view, None
-		self.text = textOf(scene, view)
+		self.text = scene.text(view)
 		self.impulse, self.first = np.zeros(3), None
 		try:
 			self._make()
@@ -60,7 +61,7 @@ class Run:
 		solver = next(e for e in O.engines if e.label == 'solver')
 		curve = dict(solver.gravityCurve or solver.loadCurve)
 		ofGravity, factor = (np.interp(solver.loadTime, *zip(*sorted(c.items()))) for c in (curve, dict(solver.loadCurve)))
-		forces = [np.array(f) for f in (*solver.reactions, *(load.resultant for load in solver.loads))] + [-np.array(f) for contact in solver.contacts for f in contact.forces]
+		forces = [np.array(f) for f in (*solver.reactions, *resultantsOf(solver))] + [-np.array(f) for contact in solver.contacts if isinstance(contact, MpmContact) for f in contact.forces]
 		momentum, points = np.zeros(3), [b for b in O.bodies if isinstance(b.shape, MpmPoint) and (solver.mask in (-1, 0) or b.groupMask & solver.mask)]
 		for b in points:
 			mass = b.material.density * b.state.volume0
@@ -77,13 +78,14 @@ class Run:
 		if self.scene.dim == 2: keys[:, 2] = 0
 		order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
 		self.keys = keys[order]
-		skipped = ('id', 'material', 'parent', 'pos0', 'halfSize0', 'velocity0', 'colour', 'parameters')
+		skipped = ('id', 'material', 'parent', 'pos0', 'halfSize0', 'velocity0', 'body', 'colour', 'parameters')
 		self.points = {name: v.back(name, values)[order] for name, values in points.items() if name not in skipped and np.asarray(values).dtype.kind in 'fi'}
 		self.points['displacement'] = (self.points['pos'] - where[order])
 		if self.scene.dim == 2: self.points['displacement'][:, 2] = 0
-		self.forces = {'reactions': v.forces(solver.reactions), 'resultants': v.forces([load.resultant for load in solver.loads])}
+		self.forces = {'reactions': v.forces(solver.reactions), 'resultants': v.forces(resultantsOf(solver))}
 		self.torques = {}
 		for contact in solver.contacts:
+			if isinstance(contact, MpmBodyContact): continue
 			self.forces['contact'] = v.forces(contact.forces)
 			about = np.array(v.point((0, 0, 0)))
 			self.torques['contact'] = v.torques([np.array(t) + np.cross(np.array(O.bodies[i].state.pos) - about, f) for i, f, t in zip(contact.bodies, contact.forces, contact.torques)])
@@ -91,27 +93,20 @@ class Run:
 		self.data = data
 		names = ['elasticEnergy', 'kineticEnergy', 'loadWork', 'boundaryWork', 'contactWork', 'impactWork', 'ghostWork', 'gridWork', 'plasticWork', 'dampingWork', 'energyImbalance']
 		self.energies = {name: np.array([data[name]]) / (v.F * v.L) for name in names if name in data}
+		self.others = structuresOf(solver, v)
 		self.iterations, self.cuts = solver.iterations, solver.cuts
 		self.weight = sum(density * b.state.volume0 / v.volume for b in O.bodies if isinstance(b.shape, MpmPoint) and (solver.mask in (-1, 0) or b.groupMask & solver.mask))
-
-
-def unitsOf(scene):
-	"""The sizes of quantities: where all is next to nothing, that is not compared with itself."""
-	height = scene.size[1] * scene.cell
-	stress = density * gravity * height
-	area = height if scene.dim == 2 and not scene.isRing else height**2
-	return dict(stress=stress, strain=stress / young, displacement=stress / young * height, force=stress * area, energy=stress * area * stress / young * height)
 
 
 def differences(run, other, name):
 	"""Differences that are larger than they should be, as sentences."""
 	if run.error or other.error: return [] if (run.error or '').split(' ')[:3] == (other.error or '').split(' ')[:3] else [f'{name}: {other.error or "no exception"}, unlike {run.error or "no exception"}']
-	units = unitsOf(run.scene)
+	units = run.scene.units()
 	if run.keys.shape != other.keys.shape or (run.keys != other.keys).any():
 		if run.keys.shape != other.keys.shape: return [f'{name}: {len(other.keys)} points instead of {len(run.keys)}']
 		return [f'{name}: initial positions differ']
 	isMeanWithZ = name == 'scaled' and run.scene.shape == 'facet' and run.scene.dim == 2  # YADE's place of a facet, from which it counts its corners; z stays in the plane
-	limit = 0 if name in exact and not isMeanWithZ else close
+	limit = 0 if name in exact and not isMeanWithZ else run.scene.close
 	found = []
 
 	def compare(what, a, b, unit):
@@ -123,19 +118,21 @@ def differences(run, other, name):
 			if (np.isnan(a) != np.isnan(b)).any(): return found.append(f'{name}: {what} is not a number in one of them only')
 			if np.nanmax(off) > limit * largest: found.append(f'{name}: {what} differs by {np.nanmax(off) / largest:.1e} of {largest:.3g}')
 
-	kinds = dict(stress=units['stress'], porePressure=units['stress'], elasticStrain=units['strain'], displacement=units['displacement'], pos=1e300 if limit else 0, defGrad=1, volume=0, halfSize=0, velocity=gravity * run.scene.dt, acceleration=gravity)
+	sizes = dict(stress=units['stress'], porePressure=units['stress'], excessPressure=units['stress'], elasticStrain=units['strain'], displacement=units['displacement'], pos=1e300 if limit else 0, defGrad=1, volume=0, halfSize=0, velocity=gravity * run.scene.dt, acceleration=gravity)
 	for what, values in run.points.items():
 		if what == 'pos' and limit: continue
-		compare(what, values, other.points[what], kinds.get(what, 0))
+		compare(what, values, other.points[what], sizes.get(what, 0))
 	force = max([units['force']] + [np.nanmax(np.abs(f), initial=0) for f in run.forces.values()])
 	for what, values in run.forces.items():
 		compare(what, values, other.forces[what], force)
 	for what, values in run.torques.items():
 		if run.scene.dim == 2: values, other.torques[what] = values[:, 2:], other.torques[what][:, 2:]
-		compare('torque', values, other.torques[what], force * run.scene.size[0] * run.scene.cell)
+		compare('torque', values, other.torques[what], force * units['length'])
 	energy = max([units['energy']] + [np.nanmax(np.abs(e), initial=0) for e in run.energies.values()])
 	for what, values in run.energies.items():
 		compare(what, values, other.energies[what], energy)
+	for what, (values, unit) in run.others.items():
+		compare(what, values, other.others[what][0], max(np.nanmax(np.abs(values), initial=0) if unit is None else units[unit], 1e-300))
 	if limit == 0 and (run.iterations, run.cuts) != (other.iterations, other.cuts): found.append(f'{name}: {other.iterations} iterations and {other.cuts} cuts instead of {run.iterations} and {run.cuts}')
 	return found
 
@@ -158,21 +155,50 @@ def check(chosen, seed):
 	return dict(outcome='wrong' if found else 'right', findings=found, error=None)
 
 
+def checkKind(name, seed):
+	"""One scene of a kind: outcome ('right', 'stops' with an exception in each copy alike, or 'wrong'), findings, and the error of the run if there was one."""
+	scene = lambda **more: kinds[name](seed, **more)
+	first = scene()
+	run = Run(first, View(first.dim, first.isRing))
+	found = [] if run.error else balanceOfKind(run)
+	for copy, view in views(first.dim, ['axisymmetric'] if first.isRing else [], random.Random(seed), first.cell).items():
+		if copy not in first.without: found += differences(run, Run(scene(), view), copy)
+	for copy, admitted in first.admitted.items():
+		if copy not in first.without and not run.error: found += apart(run, Run(scene(**{copy: 2}), View(first.dim, first.isRing)), copy, admitted)
+	return dict(outcome='wrong' if found else 'stops' if run.error else 'right', findings=found, error=run.error)
+
+
+def balanceOfKind(run):
+	"""Forces in statics are nothing in sum; in time no energy is lost without a name, or won."""
+	scene, found = run.scene, []
+	if scene.isBalanced and not scene.isDynamic: found += leftOver(run)
+	if scene.isDynamic and scene.isEnergyKnown:
+		energies = {name: values[0] for name, values in run.energies.items()}
+		size = max([scene.units()['energy'] * 1e-2] + [abs(energies[name]) for name in ('kineticEnergy', 'elasticEnergy', 'loadWork', 'plasticWork')])
+		if abs(energies['energyImbalance']) > scene.imbalance * size: found.append(f"energy: {energies['energyImbalance'] / size:.1e} of {size:.3g} J is not accounted for")
+	return found
+
+
+def leftOver(run):
+	"""Forces from outside that are not nothing in sum, as sentences."""
+	axes, found = [1] if run.scene.isRing else range(run.scene.dim), []
+	for step, (_, force, sizes) in enumerate(run.steps):
+		off = max(abs(force[a]) for a in axes) / max(sizes, run.scene.units()['force'])
+		if off > 1e-8: found.append(f'balance: {off:.1e} of the forces are left over after step {step + 1}')
+	return found
+
+
 def balance(run):
 	"""Forces from outside are nothing in sum, or what momentum changes by; a fixed smooth body gives no energy. What water does to the body from outside is told by nobody: not asked there."""
 	scene, found = run.scene, []
-	axes = [1] if scene.isRing else range(scene.dim)
-	if not scene.isDynamic and not scene.water:
-		for step, (_, force, sizes) in enumerate(run.steps):
-			off = max(abs(force[a]) for a in axes) / max(sizes, unitsOf(scene)['force'])
-			if off > 1e-8: found.append(f'balance: {off:.1e} of the forces are left over after step {step + 1}')
-	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # true if forces change, for which the other schemes take other means, as contact does in all
+	if not scene.isDynamic and not scene.water: found += leftOver(run)
+	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # by forces that change, of which the other schemes take other means, as contact does in all
 	if scene.isFreeAlongX and not scene.water and not scene.shape and (scene.scheme == 'newmark' or not isLoaded):
 		for step in range(1, len(run.steps)):
 			(before, force0, size0), (after, force1, size1) = run.steps[step - 1:step + 1]
-			off = abs((after - before - scene.dt * (force0 + force1) / 2)[0]) / (scene.dt * max(size0, size1, unitsOf(scene)['force']))
+			off = abs((after - before - scene.dt * (force0 + force1) / 2)[0]) / (scene.dt * max(size0, size1, scene.units()['force']))
 			if off > 1e-8: found.append(f'momentum: {off:.1e} of the impulse is left over along x after step {step + 1}')
 	if scene.isDynamic and scene.has('fixedBody') and not scene.has('friction'):
-		given, energy = run.energies['contactWork'][0], max(unitsOf(scene)['energy'], run.energies['kineticEnergy'][0] + run.energies['elasticEnergy'][0])
+		given, energy = run.energies['contactWork'][0], max(scene.units()['energy'], run.energies['kineticEnergy'][0] + run.energies['elasticEnergy'][0])
 		if given > 1e-6 * energy: found.append(f'energy: a fixed smooth body has given {given / energy:.1e} of {energy:.3g} J')
 	return found

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene of given features as the text of a script for YADE, as it is seen by a View. Nothing here needs YADE."""
-import math
 import random
 
 from .features import dynamic, laws, placesOf, schemes, shapes, walls, waters
+from .statements import Statements, arguments
 from .view import inf, pressures
 
 gravity, density, young = 10., 2000., 1e6
@@ -17,6 +17,7 @@ _fields = dict(elastic='young', vonMises='yieldStress', tresca='undrainedStrengt
 
 class Scene:
 	"""Numbers of a scene, drawn by its seed; lengths in cells until the text is written."""
+	close = 1e-9  # where round-off differs: of the largest of the quantity
 
 	def __init__(self, chosen, seed):
 		self.chosen, self.seed, self.places = list(chosen), seed, placesOf(chosen)
@@ -69,20 +70,30 @@ class Scene:
 		return tuple((x[a] + self.offset[a]) * self.cell if a < self.dim else x[a] for a in range(3))
 
 
+	def text(self, view):
+		return textOf(self, view)
+
+	def units(self):
+		"""Sizes of quantities; smaller differences of what is next to nothing are no difference."""
+		height = self.size[1] * self.cell
+		stress = density * gravity * height
+		area = height if self.dim == 2 and not self.isRing else height**2
+		return dict(length=self.size[0] * self.cell, stress=stress, strain=stress / young, displacement=stress / young * height, force=stress * area, energy=stress * area * stress / young * height)
+
+
 def textOf(scene, view):
 	"""The statements that make the scene; `solver` is its engine, `actions` are statements before the step of that number."""
 	return '\n'.join(_Text(scene, view).lines) + '\n'
 
 
-class _Text:
+class _Text(Statements):
 
 	def __init__(self, scene, view):
-		self.scene, self.view, self.lines = scene, view, []
-		self.boundaries, self.engine, self.actions, self.contacts = [], {}, {}, []
-		self.add('import numpy as np', 'from yade import mpm, pack, utils', 'O.reset()')
+		super().__init__(scene, view)
+		self.actions, self.contacts = {}, []
 		self._materials()
 		self._grid()
-		self._canonical()
+		self.placeInScene()
 		self._points()
 		self._supports()
 		self._loads()
@@ -91,9 +102,6 @@ class _Text:
 		self._engines()
 		self._start()
 		self._stages()
-
-	def add(self, *lines):
-		self.lines += lines
 
 	# Materials, grid and points
 
@@ -104,7 +112,7 @@ class _Text:
 		if s.law != 'camClay': values |= dict(young=young * v.S, poisson=.3)
 		if s.fixedOnTop and s.law != 'camClay': own = {key: value * (4 if key in pressures else 1) for key, value in own.items()}  # stronger, as the body hangs
 		values |= {key: value * v.S if key in pressures else value for key, value in own.items()}
-		self.add(f'O.materials.append({name}({_arguments(values)}, label="soil"))')
+		self.add(f'O.materials.append({name}({arguments(values)}, label="soil"))')
 		if s.has('twoEngines'): self.add(f'O.materials.append(MpmElasticMat(young={young * v.S}, poisson=.2, density={density * v.D}, label="other"))')
 		if s.shape: self.add(f'O.materials.append(FrictMat(young={young * v.S}, poisson=.3, density={1.3 * density * v.D}, frictionAngle=0., label="rigid"))')
 
@@ -115,17 +123,11 @@ class _Text:
 		if s.isPeriodic:
 			values['period'] = v.sizes((s.size[0] * s.cell, 0, 0))
 			values['origin'] = tuple(x if p > 0 else 0. for x, p in zip(v.box((0, 0, 0), (s.size[0] * s.cell, 0, 0))[0], values['period']))
-		text = f'grid = MpmGrid({_arguments(values)})'
+		text = f'grid = MpmGrid({arguments(values)})'
 		if s.has('refinement'):
 			low, high = v.box((-inf, -inf, -inf), (s.random.choice([.9, 1.4] if not s.has('pressure') else [.9]) * s.cell, inf, inf) if s.random.random() < .5 or s.has('pressure') else (inf, .7 * s.cell, inf))
 			text = text[:-1] + f', refinements=[MpmRefinement(min={low}, max={high})])'
 		self.add(text)
-
-	def _canonical(self):
-		"""The place of the scene at which a place of this view is."""
-		s, v = self.scene, self.view
-		matrix = [[float(x) for x in row] for row in v.turn.T]
-		self.add(f'def placeInScene(x): return np.array({matrix}) @ (np.array(x, float) / {[v.L] * s.dim + [1.] * (3 - s.dim)}) - {[float(x) for x in v.shift]}')
 
 	def _part(self, low, high):
 		"""A region between two corners in cells, as a predicate for mpm.fill; without the offset, which comes to the points."""
@@ -154,11 +156,6 @@ class _Text:
 		if s.has('pointLoad'): self.add(f'for body in points[::1]:\n\tif placeInScene(body.state.pos)[1] > {(ny - 1 + s.offset[1]) * s.cell}: body.state.force = body.state.volume * Vector3({force})')
 
 	# Boundaries
-
-	def boundary(self, low, high, fix, **more):
-		low, high = self.view.box(low, high)
-		fix = ''.join(a for a in fix if 'xyz'.index(a) < self.scene.dim)
-		self.boundaries.append(f'MpmBoundary(min={low}, max={high}, fix={self.view.letters(fix)!r}{"".join(f", {name}={value}" for name, value in more.items())})')
 
 	def _supports(self):
 		s, v = self.scene, self.view
@@ -211,23 +208,8 @@ class _Text:
 		self.engine['absorbing'] = f'[MpmAbsorbingBoundary(min={low}, max={high}{motion})]'
 
 	def _flat(self, low, high, axis, side):
-		"""A piece of a plane across an axis, corners in cells, with the body on its inner side: outwards is -1 or 1 along the axis."""
-		s = self.scene
-		a, b = s.metres(low), s.metres(high)
-		if s.dim == 2:
-			ends = [tuple(a[:2]) + (0., ), tuple(b[:2]) + (0., )]
-			# on the left of a line lies the body: to the right for the base, downwards on the left side
-			return ends if (axis == 1) == (side < 0) else ends[::-1]
-		return self._triangles(a, b, axis, side)
-
-	def _triangles(self, a, b, axis, side):
-		"""Pieces as small as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
-		u, w = [k for k in range(3) if k != axis]
-		if (axis == 1) == (side > 0): u, w = w, u
-		n = {k: math.ceil((b[k] - a[k]) / self.scene.cell * (12 if self.scene.has('refinement') else 6) - 1e-9) for k in (u, w)}
-		corner = lambda i, j: tuple(a[k] if k == axis else a[k] + (b[k] - a[k]) * (i if k == u else j) / n[k] for k in range(3))
-		quads = [(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)) for i in range(n[u]) for j in range(n[w])]
-		return [[q[0], *q[k:k + 2]] for q in quads for k in (1, 2)]
+		"""A piece of a plane, from corners in cells (Statements.plane)."""
+		return self.plane(self.scene.metres(low), self.scene.metres(high), axis, side, 12 if self.scene.has('refinement') else 6)
 
 	# Loads and water
 
@@ -401,7 +383,3 @@ def _flattened(scene, at):
 	x = list(scene.metres(at))
 	if scene.dim == 2: x[2] = 0.
 	return x
-
-
-def _arguments(values):
-	return ', '.join(f'{name}={value!r}' for name, value in values.items())

@@ -6,7 +6,7 @@ import numpy as np
 
 inf = math.inf
 # Attributes and columns that are stresses
-pressures = {'porePressure', 'yieldStress', 'undrainedStrength', 'cohesion', 'shearModulus', 'preconsolidation', 'referencePressure', 'young'}
+pressures = {'porePressure', 'yieldStress', 'undrainedStrength', 'cohesion', 'shearModulus', 'preconsolidation', 'referencePressure', 'young', 'excessPressure', 'capPressure', 'imagePressure', 'hardening', 'residualYieldStress', 'tensileStrength', 'E50ref', 'Eoedref', 'Eurref'}
 
 
 class View:
@@ -86,6 +86,7 @@ class View:
 			v[:, :3 if self.isRing else self.dim] /= self.L
 			return v @ np.abs(self.turn)
 		if name in ('velocity', 'acceleration'): return v @ self.turn * (self.T**(1 if name == 'velocity' else 2) / self.L)
+		if name in ('waterFlux', 'conductivity'): return (v @ self.turn if v.ndim > 1 else v) * (self.T / self.L)
 		if name == 'force': return v @ self.turn / self.F
 		if v.ndim == 3: return self.turn.T @ v @ self.turn / (self.S if name == 'stress' else 1)
 		return v / (self.volume if name in ('volume', 'volume0') else self.S if name in pressures else 1)
