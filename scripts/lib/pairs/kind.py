@@ -20,6 +20,7 @@ class Kind:
 	steps, dt = 4, .25
 	isBalanced = False  # whether what the engine tells of forces is all that acts in statics
 	close = 1e-9  # where round-off differs: of the largest of the quantity
+	isExact = True  # whether other units change no bit
 	isEnergyKnown, imbalance = True, .05  # whether the balance of energy is told in time; the part of the energy that may be unaccounted for
 	water = None
 	without = ()  # copies that are not compared

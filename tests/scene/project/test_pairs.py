@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Small scenes of pairs of features do not depend on how they are looked at, and what does not go together is refused by name: the short form of scripts/pairs."""
+import json
 import os
 import subprocess
 import sys
@@ -9,17 +10,20 @@ import pytest
 from conftest import Yade, root
 
 from pairs.features import Plan, allPairs, features, ordered, refusals, refused
+from pairs.kinds import kinds
+from pairs.view import View
 from worker import runCases
 
+numberOf = dict(laws=6, flow=6, water=6, beams=6, bodies=5, contact=6, energy=6)
 worker = root / 'scripts/lib/pairs/worker.py'
 
 
-def findings(folder, cases, monkeypatch):
+def findings(folder, cases, monkeypatch, threads=2):
 	"""All of them, each with its scene in front."""
 	monkeypatch.setenv('PYTHONPATH', str(root / 'scripts/lib'))
 	monkeypatch.setenv('OMP_WAIT_POLICY', 'passive')
 	found, number = [], 0
-	for (chosen, seed), result in runCases([Yade(folder).command, '-n', '-x', '-j2', str(worker)], cases, 60):
+	for (chosen, seed), result in runCases([Yade(folder).command, '-n', '-x', f'-j{threads}', str(worker)], cases, 60):
 		number += 1
 		if isinstance(result, str): found.append(f"{seed} {' '.join(chosen)}: {result}")
 		else: found += [f"{seed} {' '.join(chosen)}: {line}" for line in result['findings']]
@@ -62,6 +66,46 @@ def test_a_body_gives_no_energy_that_it_has_not(tmp_path, monkeypatch):
 
 def test_point_loads_go_with_the_weight_of_a_stage(tmp_path, monkeypatch):
 	assert not findings(tmp_path, [('plane vonMises static pressure pointLoad excavate'.split(), 1039)], monkeypatch)
+
+
+@pytest.mark.parametrize('kind', kinds)
+def test_scenes_of_a_kind_do_not_depend_on_how_they_are_looked_at(tmp_path, monkeypatch, kind):
+	"""Some of those that scripts/pairs --kind draws: with half the cell size and half the time step, too."""
+	assert not findings(tmp_path, [(kind, seed) for seed in range(numberOf[kind])], monkeypatch, threads=1)
+
+
+def test_a_kind_is_drawn_alike_in_all_copies():
+	"""Numbers are drawn once, and neither cells and steps of half the size nor a view draw others."""
+	for name, Kind in kinds.items():
+		for seed in range(20):
+			first, finer = Kind(seed), Kind(seed, finer=2)
+			view = View(first.dim, first.isRing)
+			assert Kind(seed).text(view) == first.text(view) == first.text(view), (name, seed)
+			assert finer.cell == first.cell / 2 and finer.side == first.side and finer.end == pytest.approx(first.end), (name, seed)
+
+
+def test_a_copy_that_differs_is_told(tmp_path, monkeypatch):
+	"""Gravity, which does not turn with the soil in one of the copies."""
+	own = tmp_path / 'own.py'
+	own.write_text(
+	        f'''
+import json
+import sys
+sys.path.insert(0, {str(root / 'scripts/lib')!r})
+from pairs.checks import checkKind
+from pairs.kind import Text
+write = Text.write
+def wrong(text, **more):
+	write(text, **more)
+	if text.view.isMirrored: text.add('solver.gravity *= 1 + 1e-6')
+print(json.dumps(checkKind('water', 1)))
+Text.write = wrong
+print(json.dumps(checkKind('water', 1)))
+'''
+	)
+	right, wrong = (json.loads(line) for line in Yade(tmp_path)(own).stdout.splitlines() if line.startswith('{'))
+	assert right['outcome'] == 'right' and right['error'] is None
+	assert wrong['outcome'] == 'wrong' and all(line.startswith('mirrored: ') for line in wrong['findings']) and any('stress' in line for line in wrong['findings']), wrong
 
 
 def test_a_scene_as_a_script_of_its_own(yade):
