@@ -117,7 +117,7 @@ class Flow(Kind):
 		self.isHeldRight = self.drain == 'top' and draw.random() < .7
 		if self.dim == 3 and self.lawOfFlow != 'constant': self.close = 1e-5  # drains ask one of two cells where the corner of a triangle lies on their face
 		self.isEnergyKnown = False  # water takes and keeps some
-		self.admitted = dict(finer=.5, shorter=.35)
+		self.admitted = dict(finer=.5, shorter=.6)
 		self.dt = 5. if not self.isDynamic else .005
 		self.side = self.high
 
@@ -170,6 +170,7 @@ class Water(Kind):
 		if 'time' in self.how: self.without = ('saved and loaded', )  # files do not keep functions, which is refused by name
 		self.lean = 0. if self.isRing else draw.choice([0., .2])
 		self.onBoundaries = draw.random() < .3
+		self.admitted = dict(finer=.4, shorter=.1)
 		if self.isDynamic: self.dt = .003 if self.scheme != 'explicit' else 1e-3
 		if self.dim == 3: self.side = 1.
 
@@ -200,6 +201,7 @@ class Water(Kind):
 class Beams(Kind):
 	"""Plates, walls, rings of revolution and bars in or on a block of soil, loaded on one half of its top."""
 	isExact = False  # displacements and rotations of a beam have no common scale
+	close = 1e-6  # a beam is up to a thousand times as stiff as the soil whose forces Newton's tolerance is of
 	dims = (2, 2, 2, 2, 3)
 	depth = 1.
 
@@ -405,7 +407,8 @@ class Energy(Kind):
 		self.speed, self.angle = draw.choice([.2, 1.]), 0. if self.isRing else draw.uniform(-.7, .7)
 		self.hasWeight, self.rayleigh = draw.random() < .5, draw.choice([None, None, (1., 1e-3)])
 		self.isHeld, self.absorbs = draw.random() < .6, draw.random() < .2
-		self.wide, self.high = .3 + draw.choice([0., .05]), .3
+		self.wide, self.high = draw.choice([.3, .4]), .3
+		if self.scheme == 'explicit': self.rayleigh = None
 		self.side, self.steps = .3, 6
 		self.dt = 2e-3 if self.scheme != 'explicit' else 2e-4
 		self.admitted = dict(finer=.5, shorter=.3)

@@ -14,7 +14,7 @@ from pairs.kinds import kinds
 from pairs.view import View
 from worker import runCases
 
-numberOf = dict(laws=6, flow=6, water=6, beams=6, bodies=5, contact=6, energy=6)
+numberOf = dict(laws=5, flow=5, water=5, beams=5, bodies=4, contact=5, energy=5)
 worker = root / 'scripts/lib/pairs/worker.py'
 
 
