@@ -296,8 +296,7 @@ class Bodies(Kind):
 		self.side = .4
 		self.dt = .25 if not self.isDynamic else (.1 if self.scheme != 'explicit' else .01) * self.cell / 1.
 		if self.scheme == 'explicit' and self.isDynamic: self.dt = 1e-4
-		if self.isDynamic: self.without = (*self.without, 'finer', 'shorter')  # how a blow goes on is a matter of cells and steps
-		elif not self.isBlock: self.without = (*self.without, 'finer')  # how far the nodes that are pushed are from the face is a matter of cells
+		self.without = (*self.without, 'finer', 'shorter')  # how a first touch or a blow goes on is a matter of cells and steps
 		self.admitted = dict(finer=.5, shorter=.35)
 
 	def _corners(self, draw):
@@ -352,7 +351,7 @@ class Contact(Kind):
 		self.wide, self.high = .9, .4
 		self.side = .4
 		self.dt = .25 if not self.isDynamic else 2e-3 if self.scheme != 'explicit' else 2e-4
-		if self.isDynamic: self.without = ('finer', 'shorter')  # how a blow goes on is a matter of cells and steps
+		self.without = ('finer', 'shorter')  # how a first touch or a blow goes on is a matter of cells and steps
 		self.isBalanced, self.isEnergyKnown = not self.isDynamic, False  # what the penalty stores is none of the balance
 		self.admitted = dict(finer=.6, shorter=.25)
 

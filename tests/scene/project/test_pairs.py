@@ -22,11 +22,12 @@ def findings(folder, cases, monkeypatch, threads=2):
 	"""All of them, each with its scene in front."""
 	monkeypatch.setenv('PYTHONPATH', str(root / 'scripts/lib'))
 	monkeypatch.setenv('OMP_WAIT_POLICY', 'passive')
+	told = lambda chosen: chosen if isinstance(chosen, str) else ' '.join(chosen)
 	found, number = [], 0
 	for (chosen, seed), result in runCases([Yade(folder).command, '-n', '-x', f'-j{threads}', str(worker)], cases, 60):
 		number += 1
-		if isinstance(result, str): found.append(f"{seed} {' '.join(chosen)}: {result}")
-		else: found += [f"{seed} {' '.join(chosen)}: {line}" for line in result['findings']]
+		if isinstance(result, str): found.append(f'{seed} {told(chosen)}: {result}')
+		else: found += [f'{seed} {told(chosen)}: {line}' for line in result['findings']]
 	assert number == len(cases)
 	return found
 
