@@ -53,6 +53,6 @@ def table(cases, results, command, revision, day):
 
 
 def keep(cases, results, revision, day, folder):
-	"""As a table of the study of contact, in a folder of results."""
+	"""Keeps a table of the study of contact in a folder of results."""
 	run = f'{day}, revision {revision}'
 	studies.keep(folder, 'cases.csv', 'All cases', '`scripts/contacts`, by case; the run of each row is in its last column.', [[*heads, 'run'], *([*row, run] for row in rows(cases, results))])

@@ -39,7 +39,7 @@ def page(rows, command, revision, day):
 
 
 def keep(rows, command, revision, day, folder):
-	"""As tables of the study of ground, in a folder of results."""
+	"""Keeps tables of the study of ground in a folder of results."""
 	run = f'`{command}`, {day}, revision {revision}'
 	studies.keep(folder, 'kinds.csv', 'Outcomes by kind of scene', run, kinds(rows))
 	studies.keep(folder, 'findings.csv', 'Scenes that stop or are wrong', run, findings(rows))

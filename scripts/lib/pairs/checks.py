@@ -17,7 +17,7 @@ from .scene import Scene, density, gravity
 from .view import View, views
 
 O = Omega()
-# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see
+# Operations that are exact in binary numbers, and sum nothing in another order, keep the bits: see
 # differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
 
@@ -201,7 +201,7 @@ def balance(run):
 	"""Forces from outside are nothing in sum, or what momentum changes by; a fixed smooth body gives no energy. What water does to the body from outside is told by nobody: not asked there."""
 	scene, found = run.scene, []
 	if not scene.isDynamic and not scene.water: found += leftOver(run)
-	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # by forces that change, of which the other schemes take other means, as contact does in all
+	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # true if forces change, for which the other schemes take other means, as contact does in all
 	if scene.isFreeAlongX and not scene.water and not scene.shape and (scene.scheme == 'newmark' or not isLoaded):
 		for step in range(1, len(run.steps)):
 			(before, force0, size0), (after, force1, size1) = run.steps[step - 1:step + 1]

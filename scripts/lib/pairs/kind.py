@@ -18,10 +18,10 @@ class Kind:
 	dims = (2, )
 	cell, side = .5, 2.  # cell size and size of the body [m], unless drawn otherwise
 	steps, dt = 4, .25
-	isBalanced = False  # whether what the engine tells of forces is all that acts in statics
-	close = 1e-9  # where round-off differs: of the largest of the quantity
-	isExact = True  # whether other units change no bit
-	isEnergyKnown, imbalance = True, .05  # whether the balance of energy is told in time; the part of the energy that may be unaccounted for
+	isBalanced = False  # true if the engine tells of all forces that act in statics
+	close = 1e-9  # part of the largest of the quantity, where round-off differs
+	isExact = True  # true if other units change no bit
+	isEnergyKnown, imbalance = True, .05  # true if the balance of energy is told in time; part of the energy that may be unaccounted for
 	water = None
 	without = ()  # copies that are not compared
 	admitted = dict(finer=.25, shorter=.1)  # relative differences of the means with half the cell size and half the time step

@@ -55,7 +55,7 @@ every = {
 class Laws(Kind):
 	"""Level ground under a surcharge, at rest; then nodes of its surface move down, up or along."""
 	imbalance = .1  # nodes are moved from one step to the next: goes with the time step
-	admitted = dict(finer=.6, shorter=.1)  # which nodes are moved is a matter of cells
+	admitted = dict(finer=.6, shorter=.1)  # nodes that are moved depend on the cells
 	dims = (2, 2, 2, 3)
 	depth = 1.
 
@@ -296,7 +296,7 @@ class Bodies(Kind):
 		self.side = .4
 		self.dt = .25 if not self.isDynamic else (.1 if self.scheme != 'explicit' else .01) * self.cell / 1.
 		if self.scheme == 'explicit' and self.isDynamic: self.dt = 1e-4
-		self.without = (*self.without, 'finer', 'shorter')  # how a first touch or a blow goes on is a matter of cells and steps
+		self.without = (*self.without, 'finer', 'shorter')  # a first touch or a blow depends on cells and steps
 		self.admitted = dict(finer=.5, shorter=.35)
 
 	def _corners(self, draw):
@@ -351,8 +351,8 @@ class Contact(Kind):
 		self.wide, self.high = .9, .4
 		self.side = .4
 		self.dt = .25 if not self.isDynamic else 2e-3 if self.scheme != 'explicit' else 2e-4
-		self.without = ('finer', 'shorter')  # how a first touch or a blow goes on is a matter of cells and steps
-		self.isBalanced, self.isEnergyKnown = not self.isDynamic, False  # what the penalty stores is none of the balance
+		self.without = ('finer', 'shorter')  # a first touch or a blow depends on cells and steps
+		self.isBalanced, self.isEnergyKnown = not self.isDynamic, False  # energy in penalties is left out of the balance
 		self.admitted = dict(finer=.6, shorter=.25)
 
 	def body(self, text):

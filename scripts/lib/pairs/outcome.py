@@ -55,7 +55,7 @@ def _ofFlow(flow, v):
 
 
 def meansOf(run):
-	"""Of displacements, stresses and pressures over the volume, forces, moments and energies: numbers and the size below which their differences are none."""
+	"""Means of displacements, stresses and pressures over the volume, forces, moments and energies: numbers and the size below which their differences are none."""
 	units, volume = run.scene.units(), run.points['volume'] / run.points['volume'].sum()
 	root = lambda values: float(np.sqrt(volume @ (values.reshape(len(volume), -1)**2).sum(1)))
 	small = dict(displacement='displacement', stress='stress', excessPressure='stress', velocity='velocity')

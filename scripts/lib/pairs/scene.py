@@ -17,7 +17,7 @@ _fields = dict(elastic='young', vonMises='yieldStress', tresca='undrainedStrengt
 
 class Scene:
 	"""Numbers of a scene, drawn by its seed; lengths in cells until the text is written."""
-	close, isExact = 1e-9, True  # where round-off differs: of the largest of the quantity; whether other units change no bit
+	close, isExact = 1e-9, True  # part of the largest of the quantity, where round-off differs; true if other units change no bit
 
 	def __init__(self, chosen, seed):
 		self.chosen, self.seed, self.places = list(chosen), seed, placesOf(chosen)

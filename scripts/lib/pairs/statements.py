@@ -38,7 +38,7 @@ class Statements:
 		return self._triangles(a, b, axis, side, perCell)
 
 	def _triangles(self, a, b, axis, side, perCell):
-		"""As small as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
+		"""Divides pieces as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
 		u, w = [k for k in range(3) if k != axis]
 		if (axis == 1) == (side > 0): u, w = w, u
 		n = {k: math.ceil((b[k] - a[k]) / self.scene.cell * perCell - 1e-9) for k in (u, w)}

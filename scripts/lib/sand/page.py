@@ -31,7 +31,7 @@ def extrapolated(values):
 
 
 def loads(rows):
-	"""Of one group, head first."""
+	"""Rows of one group, head first."""
 	found = [heads]
 	for row in rows:
 		number = lambda name: float(row[name] or 'nan')
@@ -41,7 +41,7 @@ def loads(rows):
 
 
 def conditions(rows):
-	"""Of one state, by stabilisation over the part of a cell that is filled, head first."""
+	"""Rows of one state, by stabilisation over the part of a cell that is filled, head first."""
 	parts = list(dict.fromkeys(row['grid'] for row in rows))
 	found = [['stabilisation', *parts]]
 	for name in dict.fromkeys(row['with'] for row in rows):
@@ -51,7 +51,7 @@ def conditions(rows):
 
 
 def extrapolations(rows):
-	"""Of cases that were run on three grids, head first."""
+	"""Rows of cases that were run on three grids, head first."""
 	found = [['case', 'setting', 'at a quarter', 'at the end']]
 	for case, points in dict.fromkeys((row['case'], row['with']) for row in rows):
 		of = [row for row in rows if (row['case'], row['with']) == (case, points)]
@@ -81,5 +81,5 @@ def page(rows, command, revision, day):
 
 
 def keep(rows, command, revision, day, folder):
-	"""As tables of the study of sand, in a folder of results."""
+	"""Keeps tables of the study of sand in a folder of results."""
 	for name, title, of in tables(rows): studies.keep(folder, f'{name}.csv', title, f'`{command}`, {day}, revision {revision}', of)
