@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What tells whether numbers are still the same, or the same elsewhere.
+// Checksum that tells whether numbers are still the same, or the same elsewhere.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What may be wrong with a load step.
+// Reasons why a load step may fail.
 #pragma once
 
 namespace gimpm {
@@ -11,7 +11,7 @@ enum class Failure {
 	unrestrained,
 	slides,
 	penetrated,
-	refused, ///< by a term, which has no kind of its own for it
+	refused, ///< refusal by a term, which has no kind of its own for it
 	inaccurate,
 	gainsEnergy,
 	stabilised, ///< only the stabilisation holds the body

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// By LAPACK: Eigen's templates for the same take the compiler seconds for each size of matrix.
+// Small matrix problems by LAPACK: Eigen's templates for the same take the compiler seconds for each size of matrix.
 #pragma once
 #include <Eigen/Core>
 

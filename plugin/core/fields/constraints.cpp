@@ -38,7 +38,7 @@ Constraints Constraints::ofDisplacements(const DofMap& map) const
 template <int Dim> void Constraints::distribute(const DofMap& map, Eigen::VectorXd& values) const
 {
 	if (!dofs.affineConstraints) return;
-	dofs.affineConstraints->template distribute<Dim>(values); // of the first block
+	dofs.affineConstraints->template distribute<Dim>(values); // values of the first block
 	forComponents(map, values, [&](Eigen::VectorXd& component) { dofs.affineConstraints->template distribute<1>(component); });
 }
 

@@ -9,8 +9,8 @@ namespace gimpm {
 
 /// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells without parting lines.
 struct AffineConstraints {
-	std::vector<int>    node;          ///< that are tied, rising
-	std::vector<int>    start = { 0 }; ///< of their masters
+	std::vector<int>    node;          ///< tied nodes, rising
+	std::vector<int>    start = { 0 }; ///< begin of the masters of each tied node
 	std::vector<int>    master;        ///< nodes
 	std::vector<double> weight;        ///< > 0, in sum one
 

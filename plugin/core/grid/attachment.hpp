@@ -12,7 +12,7 @@ namespace gimpm {
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
-	Index<Dim>                cell  = Index<Dim>::Zero(); ///< as if the grid were not periodic, in cells of its level
+	Index<Dim>                cell  = Index<Dim>::Zero(); ///< cell, numbered as if the grid were not periodic, in cells of its level
 	int                       level = 0;
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]

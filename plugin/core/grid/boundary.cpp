@@ -89,7 +89,7 @@ template <int Dim> std::vector<Key> Boundary<Dim>::besideMoving(const std::vecto
 	return beside;
 }
 
-/// With soil on both sides, or all nodes of a cell on one side in the box that moves.
+/// True with soil on both sides, or with all nodes of a cell on one side in the box that moves.
 template <int Dim> bool Boundary<Dim>::goesAlong(const Index<Dim>& cell, int axis, int level, int layer) const
 {
 	Index<Dim> below = cell, above = cell + Index<Dim>::Constant(1 << level), upper = above;

@@ -12,11 +12,11 @@ template <int Dim> struct ConstrainedBox {
 	Index<Dim>            lower, upper;
 	std::array<bool, Dim> fixed {};
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
-	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
-	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
+	Index<Dim>            period       = Index<Dim>::Zero(); ///< period of the grid; limits along it are between 0 and period, which is node 0 again
+	int                   layer        = -1;                 ///< body of the nodes (Grid::layer); -1: all bodies
 	bool                  hasHistory   = false;              ///< they move by a history in time (Load::boxMotion)
 
-	/// Whether they may move, by `displacement` or a history.
+	/// True if its nodes may move, by `displacement` or a history.
 	bool moves() const { return hasHistory || !displacement.isZero(0); }
 
 	/// The nodes of a box in space; a coordinate on a node within Grid::onLine() holds it. Infinite limits are

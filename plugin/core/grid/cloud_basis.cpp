@@ -109,7 +109,7 @@ template <int Dim> void keepFirst(std::vector<Key>& keys, const Grid<Dim>& grid)
 
 template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>& patches, const Grid<Dim>& grid)
 {
-	std::vector<std::pair<Key, int>> lowest; // with the cells of the window
+	std::vector<std::pair<Key, int>> lowest; // lowest cells of patches, with the cells of the window
 	for (const auto& patch : patches)
 		if (lowest.empty() || lowest.back().first != patch.cell) lowest.push_back({ patch.cell, patch.cells });
 		else

@@ -34,11 +34,11 @@ template <int Dim> struct CloudBasis {
 	std::vector<int>             order; ///< points sorted by patch, then by their position in the cloud
 	std::vector<PointBasis<Dim>> axes;  ///< basis functions per axis, in that order
 	std::vector<AxisValues>      hoop; ///< around an axis of symmetry: of x, over the distance from it [1/m], so that u_x gives the hoop strain; else empty
-	std::vector<Patch<Dim>>      patches;           ///< by colour, tile and lowest cell
+	std::vector<Patch<Dim>>      patches;           ///< patches by colour, tile and lowest cell
 	std::vector<Key>             nodes;             ///< active nodes, sorted; the node number is the position here
 	std::vector<Key>             cells;             ///< populated cells, sorted
 	AffineConstraints            affineConstraints; ///< among the nodes
-	std::vector<Key>             leaves;            ///< that hold populated cells, sorted; empty in a grid of equal cells, whose cells are the leaves
+	std::vector<Key>             leaves;            ///< leaves with populated cells, sorted; empty in a grid of equal cells, whose cells are the leaves
 	std::vector<int>             leafOf;            ///< numbers of the leaves of the cells; empty there too
 	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and
 	/// lies in memory as it is read. Ranges of patches [first, last) with the lowest cell in the same tile, by

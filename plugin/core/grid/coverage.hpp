@@ -8,8 +8,8 @@ namespace gimpm {
 
 /// Parts of the cells within the soil, those whose neighbours all have centres of points, that domains cover.
 struct Coverage {
-	double mean    = 0; ///< of |part - 1| [-]: 0 where domains tile
-	double largest = 0; ///< of the same
+	double mean    = 0; ///< mean |part - 1| [-]: 0 where domains tile
+	double largest = 0; ///< largest |part - 1| [-]
 	int    cells   = 0; ///< within the soil
 };
 

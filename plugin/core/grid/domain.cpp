@@ -75,7 +75,7 @@ private:
 
 template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F)
 {
-	if constexpr (Dim == 2) { // by the theorem of Cayley and Hamilton U = (C + J) / sqrt(tr C + 2 J)
+	if constexpr (Dim == 2) { // theorem of Cayley and Hamilton: U = (C + J) / sqrt(tr C + 2 J)
 		const double J = F.determinant(), cxx = F.col(0).squaredNorm(), cyy = F.col(1).squaredNorm();
 		return Vec<2>(cxx + J, cyy + J) / std::sqrt(cxx + cyy + 2 * J);
 	} else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What tied nodes stand for in matrices.
+// Master nodes that replace tied nodes in matrices.
 #pragma once
 #include "core/grid/affine_constraints.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How near positions are to the domains of the points.
+// Nearness of positions to the domains of the points.
 #pragma once
 #include "core/grid/grid.hpp"
 #include "core/grid/point_cloud.hpp"

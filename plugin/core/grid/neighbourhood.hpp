@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which of the processes that have divided the cells need a point.
+// Processes that need a point, of those that have divided the cells.
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/grid.hpp"

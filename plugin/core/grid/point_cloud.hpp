@@ -25,7 +25,7 @@ template <class Cloud, class Values> struct CloudColumn {
 /// nothing compiles: so it goes wherever points go, from process to process too.
 template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       position;       ///< [m]
-	std::vector<Vec<Dim>>       position0;      ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
+	std::vector<Vec<Dim>>       position0;      ///< initial positions [m]; empty: points are there still, or no boundary moves nodes
 	std::vector<Vec<Dim>>       halfSize;       ///< current half lengths of the domains [m], at most half a cell
 	std::vector<Vec<Dim>>       halfSize0;      ///< initial half lengths [m]
 	std::vector<double>         volume0;        ///< initial volume [m3], per metre of thickness in plane strain, of the whole ring around an axis
@@ -34,11 +34,11 @@ template <int Dim> struct PointCloud {
 	std::vector<SymTensor<Dim>> elasticStrain;  ///< logarithmic
 	std::vector<SymTensor<Dim>> stress;         ///< Cauchy stress [Pa], a result
 	InternalColumns             internals;      ///< internal variables of the laws
-	ParameterColumns            parameters;     ///< of the laws of points that have their own
-	std::vector<double>         excessPressure; ///< of water that cannot leave its pores, over that of given water [Pa]; empty: there is none
+	ParameterColumns            parameters;     ///< parameters of points with their own, for the laws
+	std::vector<double>         excessPressure; ///< pressure of water that cannot leave its pores, over that of given water [Pa]; empty: there is none
 	std::vector<Vec<Dim>>       force;          ///< point load at load factor 1 [N]; empty: no point loads
 	std::vector<int>            material;       ///< position in the list of materials
-	std::vector<int>            layer;          ///< of the body that the point is part of (Grid::layer); empty: all are of one
+	std::vector<int>            layer;          ///< body that the point is part of (Grid::layer); empty: all are of one
 
 	static constexpr auto columns()
 	{

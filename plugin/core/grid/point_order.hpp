@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where a point lies in the grid: the level and the lowest cell of its window, and which cells of that it reaches.
+// Order of points in the grid: the level and the lowest cell of its window, and which cells of that it reaches.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/grid/tile_order.hpp"
@@ -56,7 +56,7 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 
 /// Data that the points are sorted by. It is kept small: the basis functions are computed once the order is known.
 template <int Dim> struct PointOrder {
-	Key      order; // of the lowest cell
+	Key      order; // order of the lowest cell
 	unsigned kind;  // span and cells
 	int      point;
 
@@ -105,7 +105,7 @@ PointOrder<Dim> pointOrder(const PointCloud<Dim>& cloud, int point, const Grid<D
 	const Vec<Dim>   x = cloud.position[point] - grid.origin, halfSize = domainIn(cloud, point, grid, level);
 	const Index<Dim> centre = containingCell<Dim>(x, h, boundary, level, layer);
 	Index<Dim>       lowest = centre;
-	int              span = 0, centreBits = 0; // which cell of the window holds the centre
+	int              span = 0, centreBits = 0; // span of the window; bits of its cell that holds the centre
 	for (int a = 0; basis == Basis::gimp && a < Dim; ++a) {
 		const auto cells = AxisCells::reached(x[a], halfSize[a], h);
 		lowest[a]        = cells.lowest;

@@ -21,7 +21,7 @@ template <int Dim> Refinement<Dim>::Refinement(const std::vector<RefinedBox<Dim>
                 return of;
 	};
 	for (const auto& box : boxes) {
-		const int      level = largest_ - box.halvings + 1; // of the cells that are halved last
+		const int      level = largest_ - box.halvings + 1; // level of the cells that are halved last
 		const auto     cells = [&](const Vec<Dim>& x) { return ((x - grid.origin) / smallest).cwiseMax(-end).cwiseMin(end).eval(); };
 		const Vec<Dim> low = cells(box.min) + onLine(box.min), high = cells(box.max) - onLine(box.max);
 		Block          block;

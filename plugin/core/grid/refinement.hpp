@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the cells of a grid are halved, once or more: cells of several sizes, of which neighbours differ by one level
-// at most.
+// Refinement of a grid: cells are halved, once or more, so that there are several sizes, of which neighbours differ by
+// one level at most.
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/grid.hpp"
@@ -79,7 +79,7 @@ private:
 	void halve(Block block, int level);
 
 	int                                                      largest_ = 0;
-	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> halved_; // by level
+	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> halved_; // halved blocks by level
 };
 
 /// Half of the cell that a position lies in [m]: domains of points there are no larger.
@@ -107,7 +107,7 @@ template <int Dim, class F> void forLeafFaces(const std::vector<Key>& leaves, co
 		for (int a = 0; a < Dim; ++a)
 			refinement.forLeavesBeyond(leaf, a, true, [&](Key above, int level) {
 				if (find(leaves, above) < 0) return;
-				// of the face's level: the leaf itself, or what of it lies below the smaller one
+				// pair at the face's level: the leaf itself, or the part of it below the smaller one
 				f(leaf, above, level < Grid<Dim>::level(leaf) ? above - Grid<Dim>::keyStep(a, level) : leaf, a);
 			});
 }

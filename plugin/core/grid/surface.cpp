@@ -98,7 +98,7 @@ template <int Dim> Vec<Dim> Surface<Dim>::normal(const Piece& piece, const std::
 
 template <int Dim> bool Surface<Dim>::isClosed() const
 {
-	std::map<Side, int> uses; // of vertices in the plane
+	std::map<Side, int> uses; // number of pieces at each side, a vertex in the plane
 	for (const Piece& piece : pieces)
 		for (int i = 0; i < Dim; ++i)
 			++uses[Dim == 2 ? Side(piece[i], piece[i]) : side<Dim>(piece, i)];

@@ -30,7 +30,7 @@ template <int Dim> struct Surface {
 	using Piece = std::array<int, Dim>;
 
 	std::vector<Vec<Dim>> vertices;  ///< [m]
-	std::vector<Vec<Dim>> vertices0; ///< where they were at first [m]
+	std::vector<Vec<Dim>> vertices0; ///< initial vertices [m]
 	std::vector<Piece>    pieces;
 
 	/// Outward normal of a piece; `x` are the positions of all vertices.
