@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every law answers, whatever its kind: for whoever is no kernel, and need not know which laws there are.
+// Interface of all laws, whatever their kind: for callers other than kernels, which need not know which laws there are.
 #pragma once
 #include "core/base/types.hpp"
 #include "core/materials/internal_variables.hpp"
@@ -52,7 +52,7 @@ public:
 
 	bool isElastic     = false; ///< nothing flows, whatever the strain
 	bool isLinear      = false; ///< stress is linear in the elastic strain
-	bool canBeWeakened = false; ///< by one factor of safety
+	bool canBeWeakened = false; ///< strength reduction is possible, by one factor of safety
 	bool isTensorLaw   = false;
 
 	/// The law itself, or of a tensor law one that kernels ask instead of it without using the answer.

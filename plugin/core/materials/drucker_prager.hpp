@@ -166,8 +166,8 @@ private:
 
 	Hencky            elastic_;
 	DruckerPragerCone cone_;
-	double            tension_;                     ///< as given
-	double            mostMean_, radius_, inverse_; ///< of the mean stress; sqrt(J2) that the cone has there; of G + K eta eta_g
+	double            tension_;                     ///< tensile strength as given
+	double            mostMean_, radius_, inverse_; ///< largest mean stress; sqrt(J2) of the cone there; 1 over G + K eta eta_g
 };
 
 } // namespace gimpm

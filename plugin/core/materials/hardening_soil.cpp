@@ -40,12 +40,12 @@ template <class F> double root(double low, double high, double atLow, double atH
 
 /// Trial state of a step, with the state as it begins. Directions are sorted from the most to the least pressed axis.
 struct HardeningSoil::Trial {
-	std::array<int, 3>    axes;                ///< of the principal values
+	std::array<int, 3>    axes;                ///< axes of the principal values
 	double                bulk, shear;         ///< moduli of unloading in the step
 	double                volumetric, sheared; ///< strains, the former of compression
 	std::array<double, 3> direction;           ///< nu
-	double                hardening, cap;      ///< as the step begins; of the cap with the shift
-	double                sine;                ///< of the dilation angle in the step
+	double                hardening, cap;      ///< values as the step begins, the cap with the shift
+	double                sine;                ///< sine of the dilation angle in the step
 
 	Trial(const HardeningSoil&, const Vec3& strain, const TensorState&);
 

@@ -84,7 +84,7 @@ private:
 	struct Flow;
 	struct Derivatives;
 
-	double                              factorAt(double smallest) const; ///< of moduli, at a smallest pressure plus shift
+	double                              factorAt(double smallest) const; ///< factor of moduli, at a smallest pressure plus shift
 	double                              hyperbola(double mobilised) const;
 	double                              mobilisedAt(double hardening, double smallest) const;
 	double                              mostHardening(double smallest) const;
@@ -102,7 +102,7 @@ private:
 
 	Given  given_;
 	double sine_, strengthRatio_, shift_, cap_, unit_; ///< sin phi; strength over pressure; c cot phi; 1 / alpha^2; reference + shift
-	double initialModulus_, bulk_, shear_;             ///< of the hyperbola; of unloading; at the reference pressure
+	double initialModulus_, bulk_, shear_;             ///< modulus of the hyperbola; moduli of unloading; at the reference pressure
 	double shape_ = 0, capModulus_ = 0, capUnit_ = 1;
 };
 

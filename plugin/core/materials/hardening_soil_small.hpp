@@ -43,7 +43,7 @@ private:
 		double stress, tangent, bend; ///< secant modulus times strain, and its derivatives by it
 	};
 	struct Mean {
-		double modulus, byBegin, byEnd; ///< of shear, and its derivatives by both strains
+		double modulus, byBegin, byEnd; ///< shear modulus, and its derivatives by both strains
 	};
 	/// Turn of the history by a step.
 	struct Turn {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a law remembers of a point besides the elastic strain.
+// Internal variable: what a law remembers of a point besides the elastic strain.
 #pragma once
 #include <array>
 #include <limits>

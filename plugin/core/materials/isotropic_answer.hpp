@@ -16,7 +16,7 @@ inline Mandel tangentOf(const Response& response, const Mat3& axes)
 		for (int j = 0; j < 3; ++j)
 			tangent += response.tangent(i, j) * along(i, i) * along(j, j).transpose();
 		const int  j      = (i + 1) % 3;
-		const Vec6 shared = along(i, j); // of length sqrt(1/2)
+		const Vec6 shared = along(i, j); // tensor of length sqrt(1/2)
 		tangent += 4 * response.shear[i] * shared * shared.transpose();
 	}
 	return tangent;

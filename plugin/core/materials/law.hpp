@@ -3,12 +3,12 @@
 // entry here. Laws that need more than the principal values of the trial strain are tensor laws
 // (core/materials/tensor_law.hpp), which are in no table.
 //
-// What a law must have is in core/materials/required_members.hpp and in hasPrincipalMembers(). It declares its internal
-// `variables` and their values at first (initialInternals), and answers with young() and respond(), which are given the
-// values of those variables at the start of the step, in this order. young() may ask for the elastic volumetric strain
-// too. Strengths or moduli that may differ from point to point are an array of `Parameters`: parameters() are its own,
-// and with() is the same law with others, weakened() what strength reduction makes of them. A law of a few lines may
-// say that it isShort, and is compiled into the kernels.
+// Members that a law must have are in core/materials/required_members.hpp and in hasPrincipalMembers(). It declares its
+// internal `variables` and their values at first (initialInternals), and answers with young() and respond(), which are
+// given the values of those variables at the start of the step, in this order. young() may ask for the elastic
+// volumetric strain too. Strengths or moduli that may differ from point to point are an array of `Parameters`:
+// parameters() are its own, and with() is the same law with others, weakened() what strength reduction makes of them. A
+// law of a few lines may say that it isShort, and is compiled into the kernels.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the handles of principal laws and of tensor laws have in common.
+// Common part of the handles of principal laws and of tensor laws.
 #pragma once
 #include "core/materials/law.hpp"
 

@@ -26,7 +26,7 @@ struct MfrontData {
 	char*               words; ///< room for what it says of a failure
 	double              duration;
 	double*             stiffness;  ///< 36 numbers, of which the first one says before the call which one is wanted
-	double*             timeFactor; ///< of the next step; below 1 a shorter one is asked for
+	double*             timeFactor; ///< factor of the next step; below 1 a shorter one is asked for
 	double*             speedOfSound;
 	State<const double> before;
 	State<double>       after;
@@ -43,7 +43,7 @@ struct MfrontGiven {
 	std::vector<double>         parameters;
 	std::vector<Variable>       variables;
 	std::vector<double>         first;                ///< their values, six numbers of a tensor
-	int                         elasticStrain = -1;   ///< which of the variables is that by which the law goes; -1: none
+	int                         elasticStrain = -1;   ///< number of the variable by which the law goes; -1: none
 	std::vector<double>         external;             ///< values of the external variables
 	double                      density    = 0;       ///< [kg/m3]
 	std::shared_ptr<std::mutex> oneAtATime = nullptr; ///< if any, lets only one thread call it at a time

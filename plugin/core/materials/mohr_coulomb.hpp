@@ -2,7 +2,7 @@
 // Hencky elasticity with Mohr-Coulomb's perfect plasticity: exact edges and apex, tension planes, flow with a dilation
 // angle of its own.
 //
-// With principal Kirchhoff stresses t1 >= t2 >= t3 the yield function is k t1 - t3 - s and the plastic potential m t1 -
+// Yield function of principal Kirchhoff stresses t1 >= t2 >= t3 is k t1 - t3 - s, and the plastic potential m t1 -
 // t3 (de Souza Neto, Peric and Owen 2008, Computational methods for plasticity, section 8.2), where k = (1 + sin phi) /
 // (1 - sin phi), s = 2 c sqrt(k), and m is k of the dilation angle. Tension planes t1 - tensileStrength flow along
 // their normals.
@@ -88,7 +88,7 @@ private:
 	/// g of flow, De f / (f De g).
 	template <class T> struct Plane {
 		PrincipalValues<T> normal, flow, scaled;
-		T                  inverse; ///< of f De g
+		T                  inverse; ///< reciprocal of f De g
 	};
 	/// A return in the order of the principal values. The masks say which tangent belongs to the stress; they are
 	/// chosen with the tolerance, but for `flows`, which is exact.

@@ -15,7 +15,7 @@ struct NorSand::Trial {
 struct NorSand::Flow {
 	double                      volumetric, shear, image;
 	bool                        isFailed    = false;
-	Eigen::Matrix<double, 2, 2> derivatives = Eigen::Matrix2d::Identity(); ///< of the first two by the trial
+	Eigen::Matrix<double, 2, 2> derivatives = Eigen::Matrix2d::Identity(); ///< Jacobian of volumetric and shear by the trial
 };
 
 NorSand::NorSand(const Given& given) : given_(given), nonAssociated_((1 - given.curvature) / (1 - given.flowCurvature)) { }
@@ -134,7 +134,7 @@ NorSand::Vec4 NorSand::between(const Trial& trial) const
 			(-eta * pressureAt(x[0]) > q ? most : least) = eta;
 		}
 		x[3]                                            = imageAt(pressureAt(x[0]), (least + most) / 2);
-		(residual(trial, x).first[3] >= 0 ? high : low) = x[2]; // as pressures are negative; it may be infinite first
+		(residual(trial, x).first[3] >= 0 ? high : low) = x[2]; // sign for pressures, which are negative; the residual may be infinite first
 	}
 	return x;
 }
@@ -150,14 +150,14 @@ double NorSand::tip() const
 bool NorSand::isBeyondTip(const Trial& trial) const
 {
 	const double volumetric = trial.volumetric + trial.shear * nonAssociated_ * given_.ratio / (1 - given_.curvature);
-	return residual(trial, { volumetric, 0, trial.shear, pressureAt(volumetric) / tip() }).first[3] < 0; // as pressures are negative
+	return residual(trial, { volumetric, 0, trial.shear, pressureAt(volumetric) / tip() }).first[3] < 0; // sign for pressures, which are negative
 }
 
 /// The whole deviator flows, and the image pressure with it; P follows from eta = 0. What remains of the image pressure
 /// over what there was is 1 + h flow (1 - tip most), which falls with the state parameter, so that there is one answer.
 NorSand::Flow NorSand::atTip(const Trial& trial) const
 {
-	const auto rest = [&](double logarithm) { // of the image pressure, and its derivative
+	const auto rest = [&](double logarithm) { // residual at the image pressure, and its derivative
 		const double pi   = -std::exp(logarithm);
 		const auto [r, J] = residual(trial, { volumetricAt(tip() * pi), 0, trial.shear, pi });
 		return std::make_pair(-r[3], -pi * J(3, 3) + J(3, 0) * given_.swelling);

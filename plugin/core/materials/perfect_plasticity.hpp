@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What laws of perfect plasticity with faces, edges and an apex have in common.
+// Common part of laws of perfect plasticity with faces, edges and an apex.
 //
 // Stress is continuous over the boundaries between the sectors of a return, so that it may be chosen by exact tests:
 // where round-off chooses, both sides agree. The tangent jumps there. It is chosen by tests with a tolerance, in favour

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How the pores of a soil let water through.
+// Permeability of the pores of a soil to water.
 #pragma once
 #include <limits>
 
@@ -14,8 +14,8 @@ struct Pores {
 	double conductivity = std::numeric_limits<double>::quiet_NaN();
 	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
 	Law    law          = Law::constant;
-	double index        = std::numeric_limits<
-                double>::quiet_NaN();  ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
+	/// Change of the void ratio for ten times the conductivity, in the logarithmic law [-].
+	double           index     = std::numeric_limits<double>::quiet_NaN();
 	bool             areRigid  = false;   ///< water passes without pressing on the grains, and their strain displaces no water
 	const Retention* retention = nullptr; ///< null: the pores are always full
 

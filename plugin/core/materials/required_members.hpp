@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every law has to have, whatever its kind. One that is forgotten is named by the compiler.
+// Members that every law has to have, whatever its kind. One that is forgotten is named by the compiler.
 #pragma once
 #include <type_traits>
 #include <utility>

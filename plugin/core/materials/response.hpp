@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a constitutive law answers, in the principal axes of the trial elastic strain.
+// Answer of a constitutive law, in the principal axes of the trial elastic strain.
 #pragma once
 #include "core/base/lanes.hpp"
 #include "core/base/types.hpp"

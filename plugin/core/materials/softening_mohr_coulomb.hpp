@@ -73,7 +73,7 @@ public:
 	}
 
 private:
-	static constexpr double restored = .1; ///< of the rate of softening
+	static constexpr double restored = .1; ///< part of the rate of softening
 	static double           between(double from, double to, double part) { return from + part * (to - from); }
 	Hencky                  elasticity() const { return { first_.parameters()[0], poisson_ }; }
 

@@ -36,7 +36,7 @@ struct TensorVariable {
 		return { name, unit, description, Kind::tensor };
 	}
 
-	constexpr int count() const { return int(kind); } ///< of numbers
+	constexpr int count() const { return int(kind); } ///< number of numbers
 
 	/// Adds them to those that there are, and returns their columns.
 	std::vector<int> columns() const;
@@ -114,8 +114,8 @@ inline Mat3 fromMandel(const Vec6& v)
 struct TensorStep {
 	Mat3        trialStrain;       ///< elastic logarithmic strain if nothing flows in the step
 	Mat3        stretch;           ///< U of the step
-	double      duration     = 0;  ///< of the step, in the time of the loads; 0: none goes by
-	TensorState state        = {}; ///< as the step begins
+	double      duration     = 0;  ///< duration of the step, in the time of the loads; 0: none goes by
+	TensorState state        = {}; ///< state as the step begins
 	bool        wantsTangent = true;
 	bool        isBeginning  = false; ///< nothing has strained yet and no time has gone by: the stress that there is, is wanted alone
 };
@@ -277,7 +277,7 @@ struct TensorPoint {
 	Mat3        stress, elasticStrain; ///< in space
 	TensorState state;
 	bool        failed;
-	Rates       rates; ///< of the stress, row by row; where they are asked for
+	Rates       rates; ///< rates of the stress, row by row; where they are asked for
 };
 
 /// `b1`: elastic left Cauchy-Green tensor less 1 as the step begins. `gradient`: F - 1 of the step. Of the velocity

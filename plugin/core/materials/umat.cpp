@@ -56,7 +56,7 @@ bool UmatDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Mand
 	}
 	for (int i = 0; i < 6; ++i) {
 		stress(rowOf(i), columnOf(i)) = stress(columnOf(i), rowOf(i)) = t[i];
-		for (int j = 0; j < 6; ++j) // of Mandel's numbers by each other
+		for (int j = 0; j < 6; ++j) // derivatives of Mandel's numbers by each other
 			tangent(mandelOf(i), mandelOf(j)) = (i < 3 ? 1 : std::sqrt(2.)) * (j < 3 ? 1 : std::sqrt(2.)) * stiffness[i + 6 * j];
 	}
 	return shorter >= 1;

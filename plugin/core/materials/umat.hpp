@@ -33,7 +33,7 @@ public:
 private:
 	Umat                        call_;
 	std::vector<double>         parameters_; ///< and behind them numbers that are none, for a law that reads more
-	int                         count_;      ///< of parameters
+	int                         count_;      ///< number of parameters
 	UserState                   first_;
 	std::shared_ptr<std::mutex> oneAtATime_;
 	std::array<char, 80>        material_; ///< CMNAME: capital letters, and blanks behind them

@@ -19,7 +19,7 @@ struct UserState {
 	/// A law that takes more parameters or scalars than there are has no finite answer then, and harms nothing.
 	static constexpr int beyond = 64;
 
-	std::array<Mat3, mostTensors>            tensors; ///< as many as the law has
+	std::array<Mat3, mostTensors>            tensors; ///< tensors of the history, as many as the law has
 	std::array<double, mostScalars + beyond> scalars; ///< behind those of the law are numbers that are none
 
 	UserState()
@@ -32,17 +32,17 @@ struct UserState {
 /// Input of such a law.
 struct UserStep {
 	Mat3   stress, strain; ///< Kirchhoff stress [Pa] and logarithmic strain as the step begins
-	Mat3   increment;      ///< of the strain
+	Mat3   increment;      ///< increment of the strain
 	double duration;
 	bool   wantsTangent;
-	double time       = 0; ///< that the point has gone through as the step begins, in the time of the loads
+	double time       = 0; ///< time that the point has gone through as the step begins, in the time of the loads
 	int    increments = 0; ///< steps that it has gone through
 };
 
 /// One material's law, with its parameters.
 class UserDoor {
 public:
-	Hencky elastic { 1, 0 }; ///< of reference
+	Hencky elastic { 1, 0 }; ///< elasticity of reference
 
 	explicit UserDoor(int tensors, int scalars) : tensors_(tensors), scalars_(scalars) { }
 	virtual ~UserDoor() = default;
@@ -50,7 +50,7 @@ public:
 	int tensors() const { return tensors_; }
 	int scalars() const { return scalars_; }
 
-	virtual UserState first() const = 0; ///< of a point that nothing has happened to
+	virtual UserState first() const = 0; ///< state of a point that nothing has happened to
 
 	/// Duration that the law is told of a step.
 	virtual double toldOf(double duration) const { return duration; }
