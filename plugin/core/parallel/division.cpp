@@ -58,7 +58,7 @@ double Division::largest(double own) const
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes)
 {
 	std::sort(loads.begin(), loads.end(), [](const CellLoad& a, const CellLoad& b) { return a.lowest < b.lowest; });
-	std::vector<CellLoad> cells; // of which several processes may have points
+	std::vector<CellLoad> cells; // loads by cell, summed: several processes may have points in one
 	for (const CellLoad& load : loads)
 		if (!cells.empty() && cells.back().lowest == load.lowest) cells.back().points += load.points;
 		else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How points are divided among processes, of which each knows all nodes and cells, but only the points at its own.
+// Division of points among processes, of which each knows all nodes and cells, but only the points at its own.
 #pragma once
 #include "core/base/types.hpp"
 #include "core/parallel/owned_nodes.hpp"
@@ -20,7 +20,7 @@ struct Division {
 	std::vector<Key> first {};
 	/// Identity of each owned point, in the order of the cloud, rising: the same in whatever process it is.
 	std::vector<std::int64_t>     id {};
-	std::vector<std::int64_t>     copied {}; ///< of the copies that follow them in the cloud
+	std::vector<std::int64_t>     copied {}; ///< identities of the copies that follow them in the cloud
 	std::vector<std::vector<int>> lent {};   ///< the own points of which each process has copies, while there are any
 
 	bool isWhole() const { return processes->size() == 1; } ///< all points are here

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whose rows are whose, of vectors and matrices over nodes that processes assemble together.
+// Owners of the rows of vectors and matrices over nodes that processes assemble together.
 #pragma once
 #include "core/parallel/processes.hpp"
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What several processes know together when each has said its part. All of them call these, in the same order, and come
-// to the same, to the last bit.
+// Knowledge that several processes have together when each has said its part. All of them call these, in the same
+// order, and come to the same, to the last bit.
 #pragma once
 #include "core/parallel/processes.hpp"
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How many threads a factorisation is worth.
+// Number of threads that a factorisation is worth.
 #pragma once
 
 namespace gimpm {

@@ -41,8 +41,8 @@ private:
 		SupernodalFactor factor;
 		/// Numbers in K of those of the half and then of the separator, in the order of elimination.
 		std::vector<int> rows;
-		Csc              K;             ///< of them, in the order of K
-		std::vector<int> source;        ///< of each entry, its position in K
+		Csc              K;             ///< matrix of these rows, in the order of K
+		std::vector<int> source;        ///< position in K of each entry
 		Eigen::MatrixXd  last, product; ///< L_h, and L_h L_h^T
 		Eigen::VectorXd  x;
 		bool             hasDone = false;

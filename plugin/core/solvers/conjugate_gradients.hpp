@@ -51,7 +51,7 @@ private:
 	const SymmetricOperator& K_;
 	const Preconditioner*    preconditioner_ = nullptr; ///< null: the diagonal
 	double                   size_, tolerance_, error_;
-	Eigen::VectorXd          inverse_, residual_, x_, direction_, force_; ///< of a right side of size 1
+	Eigen::VectorXd          inverse_, residual_, x_, direction_, force_; ///< vectors for a right side of size 1
 	Eigen::VectorXd          preconditioned_;                             ///< residual, with a preconditioner
 	double                   gain_ = 0;                                   ///< residual times preconditioned residual
 	int                      made_ = 0;

@@ -85,7 +85,7 @@ private:
 
 	const DofMap*                   map_         = nullptr;
 	bool                            isSymmetric_ = true;
-	std::vector<std::vector<Entry>> rows_; // of each node in each field, by rising columns
+	std::vector<std::vector<Entry>> rows_; // rows of each node in each field, by rising columns
 	std::vector<double>             values_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How large the factor of a matrix over nodes of a grid will be.
+// Size of the factor of a matrix over nodes of a grid, in advance.
 #pragma once
 #include <array>
 #include <vector>

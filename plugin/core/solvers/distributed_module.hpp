@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the core asks of a library that lets several processes talk and solve together, which it opens only then:
+// Interface of a library that lets several processes talk and solve together, which it opens only then:
 // nothing of it is known here.
 #pragma once
 #include "core/parallel/processes.hpp"
@@ -11,9 +11,9 @@ struct DistributedRows {
 	int           fields;
 	const int*    widths; ///< unknowns a node of each field; the first is that of the displacements
 	int           dim;    ///< unknowns a node, of all fields
-	int           rows;   ///< of this process: dim times its nodes
-	int           all;    ///< of all processes
-	const int*    start;  ///< of each row, and the end of the last one
+	int           rows;   ///< rows of this process: dim times its nodes
+	int           all;    ///< rows of all processes
+	const int*    start;  ///< begin of each row, and the end of the last one
 	const int*    column; ///< rising, among all
 	const double* value;
 	bool          isSymmetric;
@@ -34,14 +34,14 @@ struct DistributedIteration {
 
 /// Vectors have the rows of the process. Who cannot go on says why and ends all processes.
 struct DistributedModule {
-	int version; ///< of this interface
+	int version; ///< version of this interface
 	/// False, with the reason in so many characters at most, if they cannot be found.
 	bool (*begin)(int* rank, int* size, char* reason, int length);
 	void (*smallest)(std::int64_t* numbers, int count);
 	void (*gather)(double* all, const int* start);
 	void (*exchange)(const Message* messages, int count);
 	void (*tell)(char* text, int length, int from);
-	double (*sent)();               ///< by this process [bytes]
+	double (*sent)();               ///< sum sent by this process [bytes]
 	void* (*create)(bool isShared); ///< false: for this process alone, in which nothing ends what fails
 	void (*destroy)(void* solver);
 	void (*setMatrix)(void* solver, const DistributedRows*);

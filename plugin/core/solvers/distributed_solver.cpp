@@ -39,7 +39,7 @@ Eigen::VectorXd scaleOf(const NodeRows& rows)
 /// Partition of a vector.
 struct DistributedSolver::Partition {
 	OwnedNodes        ownedNodes;
-	std::vector<int>  dof;    ///< of the rows of this process
+	std::vector<int>  dof;    ///< degrees of freedom of the rows of this process
 	std::vector<int>  widths; ///< unknowns a node of each field
 	std::vector<bool> isFree;
 
@@ -85,7 +85,7 @@ struct DistributedSolver::Task {
 	Eigen::VectorXd            x {};
 	double                     error  = 1; ///< |b - K x| / |b|
 	bool                       goesOn = false, hasPositions = false;
-	std::string                failure {}; ///< of the iterations
+	std::string                failure {}; ///< message of the iterations
 	std::optional<NodeRows>    rows {};    ///< for the library; read when they are needed
 	std::unique_ptr<Partition> partition {};
 

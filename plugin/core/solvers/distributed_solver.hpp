@@ -18,7 +18,7 @@ public:
 	DistributedSolver(const DistributedSolver&)            = delete;
 	DistributedSolver& operator=(const DistributedSolver&) = delete;
 
-	bool isShared() const { return isShared_; } ///< by several processes
+	bool isShared() const { return isShared_; } ///< several processes share the matrix
 
 	/// K x = b on the free degrees of freedom; iteratively to |b - K x| <= tolerance |b|.
 	SolverStatus solve(
@@ -46,12 +46,12 @@ private:
 	SolverStatus factorise(Task&);
 
 	bool                    isShared_;
-	void*                   solver_;        ///< of the library, where K is not symmetric or of several fields, and for factors
-	Unknowns                unknowns_;      ///< of its multigrid; none: there is none
-	std::vector<int>        start_;         ///< of the nodes of the processes, of multigrid
+	void*                   solver_;        ///< solver of the library, where K is not symmetric or of several fields, and for factors
+	Unknowns                unknowns_;      ///< unknowns of its multigrid; none: there is none
+	std::vector<int>        start_;         ///< begin of the nodes of each process, for multigrid
 	double                  perDecade_ = 0; ///< iterations of the first solve with multigrid
-	std::unique_ptr<Factor> factor_;        ///< of the last solve
-	NodeSolver              overNodes_;     ///< where K is symmetric
+	std::unique_ptr<Factor> factor_;        ///< factor of the last solve
+	NodeSolver              overNodes_;     ///< solver where K is symmetric
 };
 
 } // namespace gimpm

@@ -9,8 +9,8 @@ namespace {
 
 using Nodes = std::vector<int>::iterator;
 
-constexpr int    fewNodes  = 16; ///< that are taken as they come
-constexpr double leastPart = .2; ///< of the nodes on either side of a cut
+constexpr int    fewNodes  = 16; ///< number of nodes that are taken as they come
+constexpr double leastPart = .2; ///< part of the nodes on either side of a cut
 constexpr int    farthest  = 2;  ///< layers that couplings reach
 
 struct Cut {
@@ -103,7 +103,7 @@ private:
 	}
 
 	const NodeGraph&          graph_;
-	std::vector<int>          side_; // of each node, of the last cut that it was part of
+	std::vector<int>          side_; // last cut that each node was part of
 	int                       sides_ = 0;
 	std::vector<NodePosition> up_, down_; // layers that each node's couplings reach along each axis
 };

@@ -15,7 +15,7 @@ struct NodeGraph {
 /// to each other; what is left separates them.
 struct Order {
 	std::vector<int> numbers;
-	int              first = 0, second = 0; ///< how many there are in the parts
+	int              first = 0, second = 0; ///< numbers of nodes in the parts
 };
 
 /// Order of the nodes by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across

@@ -216,10 +216,10 @@ private:
 	const Couplings&              couplings_;
 	const DofMap&                 map_;
 	int                           width_ = 0;           ///< unknowns a node, of all fields
-	std::vector<int>              before_;              ///< of them those before each field
+	std::vector<int>              before_;              ///< unknowns of a node before each field
 	std::vector<int>              row_, nodes_;         ///< number of each node among those with rows, or -1; and these
-	int                           begin_ = 0, end_ = 0; ///< of these, those whose rows are wanted
-	std::vector<std::vector<int>> columns_;             ///< of these, by numbers of nodes
+	int                           begin_ = 0, end_ = 0; ///< range of these nodes whose rows are wanted
+	std::vector<std::vector<int>> columns_;             ///< columns of these rows, by numbers of nodes
 };
 
 } // namespace

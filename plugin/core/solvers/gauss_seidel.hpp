@@ -10,8 +10,8 @@ namespace gimpm {
 /// triangles.
 struct NodePairs {
 	std::vector<double> value;
-	std::vector<int>    first, neighbour; ///< of each node, itself first and then rising
-	std::vector<int>    upper;            ///< where those after it begin
+	std::vector<int>    first, neighbour; ///< neighbours of each node, itself first and then rising
+	std::vector<int>    upper;            ///< begin of the neighbours after the node
 
 	int    nodes() const { return int(first.size()) - 1; }
 	double diagonal(int node) const { return value[first[node]]; }

@@ -29,7 +29,7 @@ public:
 	/// diagonal, and U.
 	explicit IncompleteLu(const GeneralCsc& K) : K_(K), value_(K.value), diagonal_(K.size())
 	{
-		std::vector<int> position(K.size(), -1); // of the entries of row c
+		std::vector<int> position(K.size(), -1); // positions of the entries of row c
 		for (int c = 0; c < K.size(); ++c) {
 			const int first = K.start[c], last = K.start[c + 1];
 			for (int e = first; e < last; ++e)
@@ -64,7 +64,7 @@ public:
 private:
 	const GeneralCsc&   K_;
 	std::vector<double> value_;
-	std::vector<int>    diagonal_; // where they are among the values
+	std::vector<int>    diagonal_; // positions of the diagonal among the values
 };
 
 /// Division by the diagonal, of which all entries must be there.
@@ -143,7 +143,7 @@ bool byIncompleteLu(Iteration& iteration)
 bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations, bool diagonalFirst)
 {
 	x.setZero(b.size());
-	const double size = b.stableNorm(); // whose square may vanish or overflow
+	const double size = b.stableNorm(); // norm whose square may vanish or overflow
 	if (size == 0) return true;
 	const Eigen::VectorXd unit = b / size;
 	Iteration             iteration { K, unit, tolerance };

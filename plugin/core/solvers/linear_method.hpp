@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a linear system is to be solved, and what that took.
+// Method for solving a linear system, and its effort.
 #pragma once
 #include <string>
 
@@ -17,10 +17,10 @@ struct SolverTimes {
 };
 
 struct IterativeEffort {
-	int         iterations  = 0; ///< of conjugate gradients or GMRES
-	int         hierarchies = 0; ///< that multigrid has set up
+	int         iterations  = 0; ///< iterations of conjugate gradients or GMRES
+	int         hierarchies = 0; ///< hierarchies that multigrid has set up
 	int         fallbacks   = 0; ///< solves that they left to the direct solver
-	std::string reason {};       ///< of the last one, or why multigrid was not set up
+	std::string reason {};       ///< reason of the last one, or why multigrid was not set up
 };
 
 } // namespace gimpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a linear solver is given.
+// Input of a linear solver.
 #pragma once
 #include "core/solvers/node_problem.hpp"
 #include <utility>

@@ -37,7 +37,7 @@ Order ordering(const LinearProblem& K)
 	if (K.size() < worthDissecting && !K.hasSigns()) return {};
 	Order order = K.ordering();
 	for (int& number : order.numbers)
-		number = K.size() - 1 - number; // of the matrix in reverse
+		number = K.size() - 1 - number; // order of the matrix in reverse
 	return order;
 }
 
@@ -92,10 +92,10 @@ std::string inColumns(const SymmetricCsc& compressed, const Eigen::VectorXd& b, 
 /// The last matrix that was given to a direct solver, and its factor.
 struct LinearSolver::Direct {
 	Csc             scaled; // rows and columns in the opposite order; its pattern is that of the symbolic analysis
-	Eigen::VectorXd scale;  // of rows and columns, in their own order
+	Eigen::VectorXd scale;  // scale of rows and columns, in their own order
 	Cholesky        cholesky;
 	Lu              lu;
-	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
+	GeneralCsc      full;           // symmetric matrix that Cholesky refused, for LU
 	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is another one
 
 	// Factor of a matrix that is symmetric by signs of its rows; null: it needs no pivoting, or Cholesky's factor.
@@ -103,7 +103,7 @@ struct LinearSolver::Direct {
 	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix, or L S U of a general one
 	bool                          isGeneral     = false;
 	bool                          isForDefinite = true;  // the symbolic analysis
-	bool                          needsPivots   = false; // of that pattern no factor without them would do
+	bool                          needsPivots   = false; // no factor of that pattern would do without them
 
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{

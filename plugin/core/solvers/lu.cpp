@@ -42,7 +42,7 @@ bool Lu::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool 
 void Lu::forgetFactor()
 {
 	umfpack_di_free_numeric(&numeric_);
-	isMultifrontal_ = false; // whose memory is used again for the next factor
+	isMultifrontal_ = false; // memory of the factor is used again for the next one
 }
 
 void Lu::forget()

@@ -34,7 +34,7 @@ private:
 	std::unique_ptr<Multifrontal> multifrontal_; // if K came with an ordering
 	bool                          isMultifrontal_ = false;
 
-	void *symbolic_ = nullptr, *numeric_ = nullptr; // of UMFPACK
+	void *symbolic_ = nullptr, *numeric_ = nullptr; // objects of UMFPACK
 };
 
 } // namespace gimpm

@@ -59,7 +59,7 @@ Multifrontal::Multifrontal(const Csc& K, Form form, const int* ordering) : mumps
 		std::fill(column_.begin() + K.start[c], column_.begin() + K.start[c + 1], c + 1);
 	for (int& row : row_)
 		++row;
-	std::vector<int> place(K.size()); // of each row
+	std::vector<int> place(K.size()); // position of each row
 	for (int i = 0; i < K.size(); ++i)
 		place[ordering[i]] = i + 1;
 	m.n       = K.size();

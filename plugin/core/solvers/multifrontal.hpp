@@ -33,7 +33,7 @@ private:
 	bool run(int job);
 
 	std::unique_ptr<Instance> mumps_;
-	std::vector<int>          row_, column_; // of each entry of K, counted from 1
+	std::vector<int>          row_, column_; // row and column of each entry of K, counted from 1
 };
 
 } // namespace gimpm

@@ -34,11 +34,11 @@ private:
 
 	NodeRows                                 rows_;
 	Unknowns                                 unknowns_;
-	OwnedNodes                               ownedNodes_; ///< of the rows
+	OwnedNodes                               ownedNodes_; ///< owned nodes of the rows
 	std::shared_ptr<const SymmetricOperator> K_;
 	void*                                    hierarchy_ = nullptr;
-	mutable Eigen::VectorXd                  in_, out_;      ///< of the hierarchy
-	Eigen::VectorXd                          nodal_, image_; ///< of the product
+	mutable Eigen::VectorXd                  in_, out_;      ///< input and output of the hierarchy
+	Eigen::VectorXd                          nodal_, image_; ///< input and output of the product
 };
 
 } // namespace gimpm

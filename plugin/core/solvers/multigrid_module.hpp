@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the core asks of a library with algebraic multigrid, which it opens only when that is needed: nothing of it is
+// Interface of a library with algebraic multigrid, which it opens only when that is needed: nothing of it is
 // known here.
 #pragma once
 
@@ -12,7 +12,7 @@ struct MultigridMatrix {
 	int           rows;     ///< dim times the nodes; where processes share the matrix, those of this one
 	int           all;      ///< rows of all processes
 	bool          isShared; ///< all processes call each function; who cannot go on says why and ends all of them
-	const int*    start;    ///< of each row, and the end of the last one
+	const int*    start;    ///< begin of each row, and the end of the last one
 	const int*    column;   ///< rising, among all; rows of a node have the same ones, by whole blocks
 	const double* value;
 	/// Dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress.
@@ -23,7 +23,7 @@ struct MultigridMatrix {
 
 /// Functions that can fail write why, in so many characters at most.
 struct MultigridModule {
-	int version; ///< of this interface
+	int version; ///< version of this interface
 	/// Null if it fails.
 	void* (*create)(const MultigridMatrix*, char* reason, int length);
 	/// One V-cycle: z = M r, with M symmetric positive definite and close to the inverse. False if it fails.

@@ -7,7 +7,7 @@
 namespace gimpm {
 
 constexpr int worthwhileNodes = 4000; ///< in threads
-constexpr int nodesInBlock    = 2048; ///< with fewer, Gauss-Seidel's method takes more iterations
+constexpr int nodesInBlock    = 2048; ///< smaller blocks make Gauss-Seidel's method take more iterations
 
 /// f(begin, end) for blocks of nodes, which may be done side by side, compiled for the processor.
 template <class F> void forBlocks(int nodes, F&& f)

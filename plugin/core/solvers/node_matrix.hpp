@@ -69,7 +69,7 @@ private:
 
 	std::vector<Key>           keys_;
 	Range                      kept_ { 0, 0 };
-	std::vector<double>        values_, skew_; // of the nodes that are kept
+	std::vector<double>        values_, skew_; // values of the nodes that are kept
 	bool                       isSymmetric_ = true, isPeriodic_ = false;
 	std::vector<std::uint64_t> used_;
 	std::vector<int>           neighbour_; // number of the node at each offset; -1: not active

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a solver can make use of where a matrix belongs to the nodes of a grid.
+// Properties that a solver can use where a matrix belongs to the nodes of a grid.
 #pragma once
 #include "core/solvers/csc.hpp"
 #include "core/solvers/elimination_order.hpp"
@@ -44,7 +44,7 @@ struct NodeProblem {
 	/// For multigrid; where processes share the matrix, the rows of this one, and all call it.
 	virtual std::optional<NodeRows> rows() const       = 0;
 	virtual Unknowns                unknowns() const   = 0;
-	virtual const OwnedNodes&       ownedNodes() const = 0; ///< of the rows
+	virtual const OwnedNodes&       ownedNodes() const = 0; ///< owned nodes of the rows
 
 	/// True if a factor takes more operations for each entry of a triangle, by the positions of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;

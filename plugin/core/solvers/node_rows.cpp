@@ -56,8 +56,8 @@ private:
 		bool          isTransposed;
 		const double* values;
 		const double* skew;                ///< null: none
-		bool          isItself  = false;   ///< of one node, with the whole of what is not symmetric
-		bool          isCoupled = false;   ///< by couplings, which add to what neighbours have
+		bool          isItself  = false;   ///< block of one node, with the whole of what is not symmetric
+		bool          isCoupled = false;   ///< block with couplings, which add to that of neighbours
 		const double* opposite  = nullptr; ///< K_ba of couplings that are not symmetric
 
 		/// Entry with this part of the difference between K_ba^T and K_ab, if it is K_ba.
@@ -172,7 +172,7 @@ private:
 	const FreeDofs&        dofs_;
 	const Couplings*       couplings_;           ///< null: there are none
 	std::vector<int>       row_, nodes_;         ///< number of each node among those with rows, or -1; and these
-	int                    begin_ = 0, end_ = 0; ///< of these, those whose rows are wanted
+	int                    begin_ = 0, end_ = 0; ///< range of these nodes whose rows are wanted
 	std::vector<int>       first_;               ///< block of each row of blocks
 	std::vector<Block>     blocks_;
 };

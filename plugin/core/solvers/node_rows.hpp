@@ -14,7 +14,7 @@ struct NodeRows {
 	int                 dim;   ///< unknowns a node
 	int                 all;   ///< rows, of all processes
 	int                 first; ///< number of the first one here among them
-	std::vector<int>    dof;   ///< of each row, among all unknowns
+	std::vector<int>    dof;   ///< degree of freedom of each row, among all unknowns
 	std::vector<int>    start, column;
 	std::vector<double> value;
 	/// Values of (K + K^T) / 2, in the same positions; empty where K is symmetric. For several fields see
@@ -25,8 +25,8 @@ struct NodeRows {
 		double diagonal;
 	};
 	std::vector<Held>   held;      ///< components
-	std::vector<double> position;  ///< of the nodes, in cells from their mean; empty on a periodic grid, where a body cannot rotate
-	std::vector<int>    columnDof; ///< of each column, among all unknowns
+	std::vector<double> position;  ///< positions of the nodes, in cells from their mean; empty on a periodic grid, where a body cannot rotate
+	std::vector<int>    columnDof; ///< degree of freedom of each column, among all unknowns
 	std::vector<int>    widths;    ///< unknowns a node of each field
 
 	int rows() const { return int(dof.size()); }

@@ -22,7 +22,7 @@ struct NodeSolver::Task {
 	double                                   tolerance;
 	SolverTimes&                             times;
 	IterativeEffort&                         effort;
-	std::string                              failure {}; ///< of multigrid
+	std::string                              failure {}; ///< message of multigrid
 
 	bool iterate(int atMost)
 	{

@@ -227,10 +227,10 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 	out.value.clear();
 	const int  fields  = couplings ? couplings->map().fields() : 1;
 	const bool isMixed = couplings && couplings->areWithinDisplacements();
-	double     widths  = 0; // of all fields
+	double     widths  = 0; // unknowns a node of all fields
 	for (int field = 0; field < fields; ++field)
 		widths += field == 0 ? Dim : couplings->map()[field].width;
-	const auto most = std::size_t(double(K.nodes()) * K.codes * widths * widths); // as if all unknowns of neighbours were coupled
+	const auto most = std::size_t(double(K.nodes()) * K.codes * widths * widths); // upper limit: all unknowns of neighbours are coupled
 	out.row.reserve(most), out.value.reserve(most);
 	for (int field = 0, unknown = 0; field < fields; ++field)
 		for (int a = 0; a < K.nodes(); ++a)

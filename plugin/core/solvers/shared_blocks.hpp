@@ -34,13 +34,13 @@ private:
 	void         findBorders(const NodeMatrix<Dim>&, const Couplings*);
 	void         fetch(const Eigen::VectorXd& x) const;
 
-	const OwnedNodes ownedNodes_; // of its own: multigrid goes on with it in later steps
+	const OwnedNodes ownedNodes_; // own copy: multigrid goes on with it in later steps
 	Range            here_;       ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim> blocks_;
 	/// Couplings in the rows of own nodes, by positions among those that are here.
 	std::vector<MatrixEntry>      entries_;
-	mutable std::map<int, Border> borders_; ///< by process
-	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here
+	mutable std::map<int, Border> borders_; ///< borders by process
+	mutable Eigen::VectorXd       x_, y_;   ///< values of the nodes that are here
 };
 
 } // namespace gimpm

@@ -50,7 +50,7 @@ using Four [[gnu::vector_size(4 * sizeof(double))]] = double; // in one register
 /// BLAS, which copies what it is given.
 class Products {
 public:
-	static constexpr int rows = 8, columns = 6; ///< of a tile
+	static constexpr int rows = 8, columns = 6; ///< size of a tile
 	struct Tile {
 		Four of[columns][2];
 	};
@@ -108,7 +108,7 @@ private:
 /// Side below the diagonal, or the one above it, transposed: then it has the same pattern.
 struct Side {
 	const EntryDestinations& entries;
-	double*                  values; // of the factor
+	double*                  values; // values of the factor
 };
 
 /// Factorisation of a symmetric matrix with one side, of another one with two, of which each takes its products with
@@ -313,13 +313,13 @@ private:
 	const std::vector<Side>    sides_;
 	const std::vector<double>& values_;
 	Eigen::VectorXd&           signs_;
-	std::vector<int>           supernode_;    // of each column
+	std::vector<int>           supernode_;    // supernode of each column
 	std::vector<int>           first_, next_; // lists: of each supernode the earlier ones that have rows there
 	std::vector<int>           taken_;        // rows of each supernode that are done
-	std::vector<int>           slot_;         // of each row in the supernode at hand
-	std::vector<int>           into_;         // of each row of an update, its position there
+	std::vector<int>           slot_;         // position of each row in the supernode at hand
+	std::vector<int>           into_;         // position there of each row of an update
 	Products                   products_;
-	std::vector<double>        right_, update_; // of large products, reused
+	std::vector<double>        right_, update_; // operands of large products, reused
 	double                     least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 

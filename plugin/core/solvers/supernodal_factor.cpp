@@ -32,7 +32,7 @@ cholmod_sparse upper(const Csc& K)
 /// unknowns count as coupled to what one of them is.
 std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
 {
-	const auto mixed = [](std::uint64_t x) { // as of SplitMix64
+	const auto mixed = [](std::uint64_t x) { // hash of SplitMix64
 		x = (x + 1) * 0x9e3779b97f4a7c15;
 		x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
 		x = (x ^ x >> 27) * 0x94d049bb133111eb;
@@ -126,7 +126,7 @@ cholmod_factor* expanded(const cholmod_factor& ofNodes, const std::vector<int>& 
 	const auto       integers = [](const void* p) { return static_cast<const int*>(p); };
 	const int *      permuted = integers(ofNodes.Perm), *columns = integers(ofNodes.super), *places = integers(ofNodes.pi), *nodes = integers(ofNodes.s);
 	const int        count = int(widths.size());
-	std::vector<int> source(count, 0), first(count + 1, 0); // of each node: in the order that was given, and in that of the factor
+	std::vector<int> source(count, 0), first(count + 1, 0); // begin of each node: in the order that was given, and in that of the factor
 	std::partial_sum(widths.begin(), widths.end() - 1, source.begin() + 1);
 	for (int a = 0; a < count; ++a)
 		first[a + 1] = first[a] + widths[permuted[a]];
@@ -178,7 +178,7 @@ void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order)
 	common_.method[0].ordering = CHOLMOD_NATURAL;
 	common_.supernodal         = CHOLMOD_SUPERNODAL;
 	common_.postorder          = true;
-	for (std::size_t& columns : common_.nrelax) // which are meant of single unknowns
+	for (std::size_t& columns : common_.nrelax) // numbers are meant of single unknowns
 		columns = columns * widths.size() / order.size();
 	const std::unique_ptr<cholmod_factor, decltype(forgetFactor)> ofNodes(cholmod_analyze(nodes.get(), &common_), forgetFactor);
 	common_.method[0].ordering = own.first;
@@ -194,7 +194,7 @@ void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, b
 	// Its default is AMD, and METIS if that is not good; its first method is the given order.
 	common_.nmethods   = order.empty() ? 0 : 1;
 	common_.supernodal = last == 0 && isDefinite ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;
-	for (const bool postorder : { true, false }) { // which the last ones survive if all before them are connected
+	for (const bool postorder : { true, false }) { // last columns survive a postorder if all before them are connected
 		common_.postorder = postorder;
 		factor_           = cholmod_analyze_p(&A, order.empty() ? nullptr : order.data(), nullptr, 0, &common_);
 		if (!factor_ || std::equal(order.end() - last, order.end(), ordering() + A.nrow - last)) return;

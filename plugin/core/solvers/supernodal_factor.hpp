@@ -56,8 +56,8 @@ private:
 	cholmod_common  common_;
 	cholmod_factor* factor_ = nullptr;
 
-	EntryDestinations   entries_, above_; ///< of K, among the values of a factor with signs; above_: none if it is symmetric
-	std::vector<double> upper_;           ///< of U^T; empty if it is L^T
+	EntryDestinations   entries_, above_; ///< destinations of entries of K, among the values of a factor with signs; above_: none if it is symmetric
+	std::vector<double> upper_;           ///< values of U^T; empty if it is L^T
 	Eigen::VectorXd     signs_;           ///< in the order of the factor
 };
 
