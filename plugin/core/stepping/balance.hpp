@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is out of balance at an iterate, and what it is compared with.
+// Out-of-balance forces at an iterate, and the forces that they are compared with.
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
@@ -8,7 +8,7 @@ namespace gimpm {
 
 /// Out-of-balance forces on the free degrees of freedom. Those of other fields than the displacements are scaled.
 struct Balance {
-	Eigen::VectorXd residual;       ///< by number of the free degree of freedom [N]
+	Eigen::VectorXd residual;       ///< residual by number of the free degree of freedom [N]
 	double          size      = 0;  ///< |residual| of all fields together, infinite where there is no such number [N]
 	double          reference = 0;  ///< |external forces + reactions| [N]
 	int             worst     = -1; ///< unknown
@@ -59,7 +59,7 @@ public:
 	/// Strain of a cell of which one side is held and the other moves like the node that moves most.
 	double strainOf(const Eigen::VectorXd& d) const { return system_.map.of(0, d).template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
 
-	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< of strains, a part of them
+	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< round-off of strains, a part of them
 
 private:
 	double of(int i, double strain) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the history of residuals says of the iterations to come.
+// Convergence, judged by the history of residuals.
 #pragma once
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How long a time step by central differences may be.
+// Longest stable time step by central differences.
 #pragma once
 #include "core/stepping/model.hpp"
 
@@ -12,13 +12,13 @@ struct Stiffest {
 	double spacing      = 0; ///< size of the domains [cells]
 };
 template <int Dim> Stiffest stiffest(const PointCloud<Dim>&, const Model<Dim>&);
-template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>&, const Model<Dim>&); ///< of the points of this process
+template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>&, const Model<Dim>&); ///< values of the points of this process
 
 /// 2 / omega_max [s] of the body in its present state, by
 ///
 ///     omega_max^2 <= (C^2 c^2 + gamma_K / gamma_M E / density + 16 penalty E / density) / h^2
 ///
-/// with the speed c of pressure waves and the penalty of contacts and walls, which is weighed four times as much as
+/// Here c is the speed of pressure waves, and the penalty of contacts and walls is weighed four times as much as
 /// stability needs: a bar that bounces off a Box wins energy with the longest stable step, and hardly any with half of
 /// it (examples/waves/explicit.py). C is the largest of many blocks that cut cells anywhere, with Poisson's ratios 0 to
 /// .49 and 2 to 4 points along each axis of a cell (tests/core/stepping/test_explicit.cpp). Where domains are larger

@@ -17,8 +17,8 @@ constexpr double mostOfBodies = 1e-3;
 /// Kirchhoff stress over the plane or space of the grid, and around an axis.
 template <int Dim> struct KirchhoffStress {
 	Mat<Dim> inSpace;
-	double   hoop;   ///< of a ring
-	double   energy; ///< of Hencky's elasticity, over the initial volume
+	double   hoop;   ///< stress of a ring
+	double   energy; ///< energy of Hencky's elasticity, over the initial volume
 
 	KirchhoffStress(const PointCloud<Dim>& cloud, std::size_t p)
 	{
@@ -33,7 +33,7 @@ template <int Dim> struct KirchhoffStress {
 /// Energy gain of one point, without kinetic energy.
 template <int Dim> EnergyGain gainOf(const PointCloud<Dim>& before, const PointCloud<Dim>& after, std::size_t p, bool isHencky)
 {
-	constexpr double           roundOff = 1e-12; // of strains
+	constexpr double           roundOff = 1e-12; // round-off of strains
 	const KirchhoffStress<Dim> first(before, p), last(after, p);
 	const Mat<Dim>             I = Mat<Dim>::Identity(), &F0 = before.defGrad[p], &F1 = after.defGrad[p];
 	double work = (first.inSpace.cwiseProduct(F1 * F0.inverse() - I).sum() + last.inSpace.cwiseProduct(I - F0 * F1.inverse()).sum()) / 2;

@@ -7,10 +7,10 @@ namespace gimpm {
 
 /// Spurious energy gain of all points, of all processes where they are divided.
 struct EnergyGain {
-	double gain   = 0; ///< of elastic energy, beyond what stress has taken up on its way [J]
+	double gain   = 0; ///< gain of elastic energy, beyond what stress has taken up on its way [J]
 	double inPlay = 0; ///< kinetic and elastic energy as the step begins, and the size of that work [J]
 
-	static constexpr double most = 0.25; ///< of what is in play
+	static constexpr double most = 0.25; ///< part of the energy in play
 
 	bool isAdmissible() const { return !(gain > most * inPlay); }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the ghost stabilisation carries in a static step.
+// Part of the work in a static step that the ghost stabilisation takes.
 #pragma once
 #include "core/stepping/step_system.hpp"
 

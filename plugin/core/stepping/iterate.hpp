@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the system answers to displacements of the nodes.
+// Answer of the system to displacements of the nodes.
 #pragma once
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/balance.hpp"
@@ -55,7 +55,7 @@ public:
 	}
 
 	WholeBalance<Dim>           whole;
-	NodeMatrix<Dim>             K;              ///< of the last evaluation with stiffness
+	NodeMatrix<Dim>             K;              ///< stiffness of the last evaluation that asked for it
 	Couplings                   couplingBlocks; ///< K, of the same evaluation
 	Eigen::VectorXd             force;
 	Balance                     balance;
@@ -66,7 +66,7 @@ private:
 	const StepSystem<Dim>& system_;
 	StepReport&            report_;
 	LocalBalance<Dim>      local_;
-	Eigen::VectorXd        absoluteContributions_; // of the forces
+	Eigen::VectorXd        absoluteContributions_; // absolute contributions to the forces
 	Eigen::VectorXd        caused_;
 	bool                   hasContributions_ = false;
 };

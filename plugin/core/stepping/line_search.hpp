@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is done with a full Newton step after which the forces resist it.
+// Line search after a full Newton step that the forces resist.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace gimpm {
 struct NewtonStep {
 	Eigen::VectorXd from, step;               ///< displacements before it, and the whole of it [m]
 	double          before = 0, after = 0;    ///< work of the out-of-balance force on it, before and after all of it [J]
-	double          sizeBefore = 0, size = 0; ///< of the residual [N]
+	double          sizeBefore = 0, size = 0; ///< size of the residual [N]
 	double          length = 0;               ///< largest displacement in it [m]
 
 	/// True if the step may be taken as it is: it may lead a little past the least potential. One that does not

@@ -46,7 +46,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& couplingB
 	const Status status     = solver_.solve(problem, withSigns(std::move(residual)), correction, method_, forcing);
 	keepsFactor_            = status == (isDefinite ? Status::cholesky : Status::lu);
 	if (status != Status::iterative) {
-		method_ = LinearMethod::direct; // what could not be solved iteratively once stays difficult
+		method_ = LinearMethod::direct; // systems that could not be solved iteratively once stay difficult
 		if (isDefinite) report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
 	}
 	if (status == Status::singular) return false;

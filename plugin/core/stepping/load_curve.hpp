@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a load is multiplied by, over time.
+// Factor of a load over time.
 #pragma once
 #include <utility>
 #include <vector>

@@ -75,12 +75,12 @@ private:
 	/// too.
 	void recordGap(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
-		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // of the cells that the soil is in
+		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // size of the cells that the soil is in
 		const double centre = distance(cloud.position[p], grid, h), half = cloud.halfSize[p][axis] / h;
 		const double moved = sign * (cloud.position[p] - cloud.position0[p])[axis] / h;
 		const Gap    gap { centre - half, centre - moved - cloud.halfSize0[p][axis] / h };
 		if (centre + half <= 0 || (gap.now > 0.5 && gap.first > 1 - 1e-9)) return;
-		Index<Dim> low = box.lower, high = box.upper; // of the nodes that the point is before
+		Index<Dim> low = box.lower, high = box.upper; // range of the nodes that the point is before
 		for (int a = 0; a < Dim; ++a) {
 			if (a == axis) continue;
 			const double position = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
@@ -110,7 +110,7 @@ private:
 		}
 	}
 
-	ConstrainedBox<Dim> box; // of the nodes
+	ConstrainedBox<Dim> box; // box of the nodes
 	int                 axis;
 	double              sign;
 	std::map<Key, Gap>  gaps;
@@ -164,7 +164,7 @@ template <int Dim>
 std::string withdrawn(const ConstrainedBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division& division)
 {
 	if (division.largest(double(cloud.position0.size())) == 0) return "";             // no process knows
-	const double before = load.before(), factor = before != 0 ? before : load.growth; // what has pushed, or begins to
+	const double before = load.before(), factor = before != 0 ? before : load.growth; // load that has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
 		Front<Dim>   front(box, a, push);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether the boxes that move nodes still have hold of the soil.
+// Check that the boxes that move nodes have not lost the soil.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/stepping/model.hpp"

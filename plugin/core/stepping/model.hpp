@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a load step is given besides the points.
+// Input of a load step besides the points.
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
@@ -89,7 +89,7 @@ template <int Dim> struct Model {
 	/// Besides the points' resistance and the ghost stabilisation.
 	std::vector<TermOfStep<Dim>> terms {};
 	/// Besides the displacements.
-	InertiaOfStep<Dim>           inertia {}; ///< of time steps; null: those without
+	InertiaOfStep<Dim>           inertia {}; ///< inertia of time steps; null: steps without
 	std::vector<NodalField<Dim>> fields {};
 	/// Terms of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};
@@ -107,12 +107,12 @@ template <int Dim> struct Model {
 
 template <int Dim> struct Load {
 	Vec<Dim>                  gravity = Vec<Dim>::Zero(); ///< at factor 1 [m/s2]
-	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
+	LoadFactor                factor {};                  ///< factor of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
-	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
+	std::map<int, LoadFactor> ofBoxes {};                 ///< factors of the displacement of boxes of the boundary with their own
 	double                    motion   = 0;               ///< duration of the step where something moves by its velocity [s]
-	double                    duration = 0;               ///< of the step, for laws that depend on it, in the time of the loads
-	std::map<int, Vec<Dim>>   boxMotion {}; ///< of the nodes constrained by boxes of the boundary, in the step, besides their displacement [m]
+	double                    duration = 0;               ///< duration of the step, for laws that depend on it, in the time of the loads
+	std::map<int, Vec<Dim>>   boxMotion {}; ///< motion of the nodes constrained by boxes of the boundary, in the step, besides their displacement [m]
 
 	LoadFactor ofBox(int number) const
 	{

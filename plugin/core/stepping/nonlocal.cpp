@@ -13,9 +13,9 @@ constexpr double overlocal = 2, exactness = 1e-10;
 /// The points of some of the materials, with their volumes, and the functions of the grid at them.
 template <int Dim> struct Average {
 	const CloudBasis<Dim>&      basis;
-	const std::vector<char>&    isMeant; ///< by material
+	const std::vector<char>&    isMeant; ///< flag by material
 	const PointCloud<Dim>&      cloud;
-	std::vector<int>            number; ///< of the nodes around these points; -1: others
+	std::vector<int>            number; ///< number of each node around these points; -1: others
 	Eigen::SparseMatrix<double> matrix;
 	int                         nodes = 0;
 
@@ -52,7 +52,7 @@ template <int Dim> struct Average {
 		solver.setTolerance(exactness);
 		const Eigen::VectorXd nodal = solver.solve(right);
 		forMeant([&](int p, const Patch<Dim>& patch, const double* value, int count, double) {
-			double sum = 0, whole = 0; // of functions beyond walls there are no values
+			double sum = 0, whole = 0; // functions beyond walls have no values
 			for (int n = 0; n < count; ++n)
 				if (patch.node[n] >= 0) sum += value[n] * nodal[number[patch.node[n]]], whole += value[n];
 			mean[basis.order[p]] = sum / whole;

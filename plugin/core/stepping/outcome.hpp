@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How an iteration ended, for the report.
+// End of an iteration, for the report.
 #pragma once
 #include "core/stepping/balance.hpp"
 #include "core/stepping/convergence.hpp"

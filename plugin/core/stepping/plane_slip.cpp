@@ -10,7 +10,7 @@ namespace {
 constexpr double nothing      = -std::numeric_limits<double>::infinity();
 constexpr int    stripsOfCell = 4;
 constexpr double leastFace    = 0.9; // cells
-constexpr double leastFilling = 0.9; // of the block, by the volumes of its points
+constexpr double leastFilling = 0.9; // part of the block, by the volumes of its points
 constexpr double mostStrips   = 1e6;
 
 /// Tops and bottoms of the body over upright strips of a quarter of a cell, across which a face may be.
@@ -55,7 +55,7 @@ public:
 	int    count() const { return count_; }
 	bool   has(int strip) const { return 0 <= strip && strip < count_; }
 	double width() const { return width_; }
-	double across() const { return Dim == 3 ? rows_ * width_ : 1; } ///< of the body along the face [m]
+	double across() const { return Dim == 3 ? rows_ * width_ : 1; } ///< width of the body along the face [m]
 	double begin(int strip) const { return lower_[axis_] + strip * width_; }
 	double height(std::size_t p) const { return -down_.dot(cloud_.position[p]); }
 
@@ -80,7 +80,7 @@ public:
 				f(strip, row);
 	}
 
-	std::vector<double> top, front, bottom; ///< by strip, of all rows: the lowest and the highest top, the highest bottom
+	std::vector<double> top, front, bottom; ///< heights by strip, over all rows: the lowest and the highest top, the highest bottom
 	std::vector<double> foreign;            ///< the highest top of materials without strength
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether limit analysis admits that a free, steep face stands: slips along planes.
+// Stability of a free, steep face by limit analysis: slips along planes.
 #pragma once
 #include "core/grid/boundary.hpp"
 #include "core/grid/point_cloud.hpp"
@@ -14,10 +14,10 @@ struct Strength {
 
 /// Soil beside a free face, above a plane that rises from its foot.
 template <int Dim> struct PlaneSlip {
-	Vec<Dim> foot;       ///< of the face [m]
+	Vec<Dim> foot;       ///< foot of the face [m]
 	int      axis;       ///< across the face
-	double   height = 0; ///< of the face [m]
-	double   angle  = 0; ///< of the plane with the horizontal [rad]
+	double   height = 0; ///< height of the face [m]
+	double   angle  = 0; ///< angle of the plane with the horizontal [rad]
 	double   excess = 0; ///< work of the weight over what the cohesion on the plane can dissipate; infinite without cohesion
 };
 

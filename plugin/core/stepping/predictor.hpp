@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where Newton's method may start: the displacements of the last step, in the ratio of the load increments.
+// First guess of Newton's method: the displacements of the last step, in the ratio of the load increments.
 #pragma once
 #include "core/grid/grid.hpp"
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the length of a quasi-static step does to its displacements.
+// Error of displacements by the length of a quasi-static step.
 #pragma once
 #include "core/stepping/predictor.hpp"
 #include "core/stepping/step_system.hpp"

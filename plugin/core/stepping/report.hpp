@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a load step went. Failure is a value.
+// Report of a load step. Failure is a value.
 #pragma once
 #include "core/base/failure.hpp"
 #include "core/base/types.hpp"
@@ -22,7 +22,7 @@ struct StepTimes {
 struct StepReport {
 	Failure             failure = Failure::none;
 	std::string         cause;                    ///< one clause for the user, empty when converged
-	std::string         advice;                   ///< what may help, in sentences, of the term that has refused the step; empty if none has
+	std::string         advice;                   ///< remedies in sentences, from the term that has refused the step; empty if none has
 	bool                accepted         = false; ///< the points took over an iterate that had not converged
 	int                 iterations       = 0;     ///< linear solves
 	int                 reusedFactors    = 0;     ///< solves with the factor of the solve before
@@ -30,25 +30,25 @@ struct StepReport {
 	int                 lineSearchTrials = 0;     ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;                ///< |residual| / |external forces + reactions| before the first solve and after each
 	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
-	double              localError    = 0;                                        ///< of the displacements, over what is admitted; 0: nobody asks
+	double              localError    = 0;                                        ///< error of the displacements, over what is admitted; 0: nobody asks
 	int                 errorOrder    = 3;                        ///< the power of the length of the step that the largest of them goes with
-	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last symmetric matrix that was factorised
+	Definiteness        definiteness  = Definiteness::notChecked; ///< definiteness of the last symmetric matrix that was factorised
 	int                 luSolves      = 0;                        ///< solves for which K was not positive definite, or not symmetric
 	IterativeEffort     conjugateGradients;                       ///< or of GMRES; of all attempts at the step
 	int                 failedPoint = -1;                         ///< its index in the cloud, for Failure::inverted and noResponse
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials
-	int parts      = 0; ///< of the body that share no node
+	int parts      = 0; ///< parts of the body that share no node
 	/// In parts of a few points that nothing keeps from moving freely (restraint.hpp), which are held where they
 	/// are, and the position of the first part.
 	int         loosePoints = 0;
 	std::string loosePosition {};
-	Vec3        looseForce = Vec3::Zero(); ///< with which they are held [N]
+	Vec3        looseForce = Vec3::Zero(); ///< force on them in their positions [N]
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {
-		Vec3        position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< of the node [m]
+		Vec3        position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< position of the node [m]
 		int         axis     = -1;                                                       ///< -1: of another field than the displacements
 		double      force    = 0;                                                        ///< [N]
 		std::string field {};                                                            ///< the name of another field
@@ -64,7 +64,7 @@ struct StepReport {
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
 
-	double ghostShare = std::numeric_limits<double>::quiet_NaN(); ///< of the work of the step (ghost_share.hpp), NaN if it is not known
+	double ghostShare = std::numeric_limits<double>::quiet_NaN(); ///< part of the work of the step (ghost_share.hpp), NaN if it is not known
 	int    passes     = 0;                                        ///< in which the stabilisation was relieved (GhostSettings::workTolerance)
 
 	StepTimes times;

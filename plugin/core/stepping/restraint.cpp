@@ -111,10 +111,10 @@ template <int Dim> struct Part {
 	static constexpr int modes = Dim == 2 ? 3 : 6;
 	using Gram                 = Eigen::Matrix<double, modes, modes>;
 
-	Vec<Dim> sum   = Vec<Dim>::Zero(); // of node positions, in cells
+	Vec<Dim> sum   = Vec<Dim>::Zero(); // sum of node positions, in cells
 	int      nodes = 0, points = 0;
 	double   reach = 1;            // largest distance of a node from the centre, in cells
-	Gram     gram  = Gram::Zero(); // of the rigid modes' values at the constrained degrees of freedom
+	Gram     gram  = Gram::Zero(); // products of the rigid modes' values at the constrained degrees of freedom
 
 	Vec<Dim> centre() const { return sum / nodes; }
 
@@ -219,7 +219,7 @@ template <int Dim> void countPoints(const CloudBasis<Dim>& basis, const Parts<Di
 		const auto first = basis.order.begin() + patch.first;
 		found[parts.root(node)].points += int(std::count_if(first, first + patch.count, [own](int p) { return p < own; }));
 	}
-	if (division.isWhole() || found.size() == 1) return; // which is enough to say that nothing is apart from it
+	if (division.isWhole() || found.size() == 1) return; // a single group: nothing is apart from it
 	std::vector<double> counts;
 	for (auto& [root, part] : found)
 		counts.push_back(std::exchange(part.points, 0));
@@ -342,10 +342,10 @@ private:
 
 	const CloudBasis<Dim>&       basis_;
 	const Grid<Dim>&             grid_;
-	std::vector<int>             parent_;  // of cells
-	std::map<int, int>           points_;  // of groups
+	std::vector<int>             parent_;  // parents of cells
+	std::map<int, int>           points_;  // points of groups
 	std::map<int, std::set<int>> small_;   // nodes of groups of few points
-	std::vector<char>            ofLarge_; // by node
+	std::vector<char>            ofLarge_; // flag by node
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether the constrained nodes, the terms and, in a periodic grid, its own images keep every connected part of the
+// Check that the constrained nodes, the terms and, in a periodic grid, its own images keep every connected part of the
 // body from moving as a rigid body.
 #pragma once
 #include "core/terms/term.hpp"
@@ -10,12 +10,12 @@ namespace gimpm {
 struct LoosePoints {
 	std::vector<int> nodes {};
 	int              points = 0;
-	std::string      position {}; ///< of the first, "(1, 2)"
+	std::string      position {}; ///< position of the first, "(1, 2)"
 };
 
 struct Restraint {
-	int         parts = 0;  ///< of the body that share no node
-	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
+	int         parts = 0;  ///< parts of the body that share no node
+	std::string freeMotion; ///< motion of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
 	/// Parts that can move, too, but have fewer points than a cell has nodes, beside a part that has more:
 	/// freeMotion leaves them out. None where points are divided.
 	LoosePoints loose {};

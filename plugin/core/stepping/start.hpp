@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where Newton's method starts.
+// Start of Newton's method.
 #pragma once
 #include "core/stepping/iterate.hpp"
 #include "core/stepping/linear_step.hpp"

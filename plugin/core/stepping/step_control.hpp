@@ -18,8 +18,8 @@ public:
 	/// Begins with the part that the step before has left, 1 at first.
 	StepControl(double part, double leastPart, int maxIterations) : part_(part), leastPart_(leastPart), maxIterations_(maxIterations) { }
 
-	double part() const;                                       ///< of the whole, to be tried now
-	double goal() const { return done_ + part(); }             ///< how much of the whole is done when it succeeds
+	double part() const;                                       ///< part of the whole to be tried now
+	double goal() const { return done_ + part(); }             ///< part of the whole that is done when it succeeds
 	bool   isLeast() const { return part() / 2 < leastPart_; } ///< it will not be cut
 	bool   isDone() const { return done_ >= 1; }
 	int    cuts() const { return cuts_; }
@@ -32,7 +32,7 @@ public:
 	/// the next one will be tried as a whole.
 	bool take(const StepReport&);
 
-	double nextPart() const { return part_; } ///< what the next step may begin with
+	double nextPart() const { return part_; } ///< part that the next step may begin with
 
 private:
 	bool   mayGrow(const StepReport&) const;

@@ -130,7 +130,7 @@ template <int Dim> void StepSystem<Dim>::constrainField(int field, const FieldSt
 {
 	Eigen::VectorXd before = Eigen::VectorXd::Zero(map.size());
 	map.of(field, before)  = start.before;
-	gimpm::complete(owned_->knownNodes(), map, before); // what may be a sum over points
+	gimpm::complete(owned_->knownNodes(), map, before); // start value, which may be a sum over points
 	constraints.template distribute<Dim>(map, before);
 	before_[field] = map.of(field, before);
 	for (int n = 0; n < map.nodes(); ++n)
@@ -167,7 +167,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		complete(before);
 		return Eigen::VectorXd(before - resistance);
 	};
-	for (const auto& make : model.coupledTerms) { // of which inertia knows the imbalance
+	for (const auto& make : model.coupledTerms) { // inertia knows their imbalance
 		auto term = make(context(), state(Eigen::VectorXd::Zero(map.size())));
 		coupled_.push_back(term.get());
 		terms.push_back(std::move(term));

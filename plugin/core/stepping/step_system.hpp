@@ -20,17 +20,17 @@ template <int Dim> struct StepSystem {
 	StepSystem(const StepSystem&) = delete; // the terms refer to what is here
 
 	const Model<Dim>&           model;
-	const Boundary<Dim>         boundary; ///< that of the model among the soil
+	const Boundary<Dim>         boundary; ///< boundary of the model among the soil
 	CloudBasis<Dim>             basis;
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
-	Terms<Dim>                  terms;             ///< whose sum balances the external forces
+	Terms<Dim>                  terms;             ///< terms whose sum balances the external forces
 	Inertia<Dim>*               inertia = nullptr; ///< the last of them, in a time step
 	/// Vectors have a block for each field, and first that of the displacements: Dim components a node.
 	DofMap                 map;
 	Constraints            constraints;
 	const FreeDofs&        dofs       = constraints.dofs;
-	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< of displacements [m]
+	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< prescribed displacements [m]
 	Eigen::VectorXd        external;                            ///< body and point forces [N]
 	Eigen::VectorXd        ghostReference;    ///< displacements of which jumps of the gradient cost nothing, by GhostSettings::memory; empty: none [m]
 	Eigen::VectorXd        inertialPredictor; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
@@ -39,7 +39,7 @@ template <int Dim> struct StepSystem {
 	void fixNodes(const std::vector<int>& nodes, const Load<Dim>&);
 	bool isStill(int node) const { return !isStill_.empty() && isStill_[node]; }
 
-	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements
+	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< number of displacements
 
 	/// The fields after they have grown so much in the step.
 	State state(Eigen::VectorXd growth) const { return State(map, before_, std::move(growth)); }
@@ -63,7 +63,7 @@ template <int Dim> struct StepSystem {
 
 	/// Reduced tangent of all terms at the start of the step.
 	LinearProblem               tangent() const;
-	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const; ///< of all nodes
+	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const; ///< tangent of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the absolute contributions of the forces where they are
 	/// given. Of K only the share is right, rows and columns. Forces at tied nodes are given to their masters; of K
@@ -115,10 +115,10 @@ private:
 	std::unique_ptr<OwnedParts<Dim>> owned_;
 	/// The fields as the step begins; displacements are those of the step.
 	std::vector<Eigen::VectorXd>   before_;
-	Constraints                    ofDisplacements_;      ///< where there are other fields
-	std::vector<CoupledTerm<Dim>*> coupled_;              ///< of the terms
+	Constraints                    ofDisplacements_;      ///< constraints of the displacements, with other fields
+	std::vector<CoupledTerm<Dim>*> coupled_;              ///< coupled ones of the terms
 	bool                           isStabilised_ = false; ///< the second of the terms is the ghost's
-	std::vector<char>              isStill_;              ///< by node; empty: none is
+	std::vector<char>              isStill_;              ///< flag by node; empty: none is
 
 	Eigen::VectorXd sumOf(std::size_t first, std::size_t count, const Eigen::VectorXd& d) const;
 

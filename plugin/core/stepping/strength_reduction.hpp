@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether the body still carries its load with a part of its strength, at small displacements.
+// Check that the body still carries its load with a part of its strength, at small displacements.
 #pragma once
 #include "core/materials/weakening.hpp"
 #include "core/stepping/load_step.hpp"
@@ -12,8 +12,8 @@ template <int Dim> struct WeakBody {
 	double                reached    = 1;     ///< factor of the last equilibrium
 	int                   iterations = 0, parts = 0;
 	std::string           cause;         ///< why it does not
-	std::vector<Vec<Dim>> displacement;  ///< of the points, to the last state [m], small or not
-	std::vector<double>   plasticStrain; ///< that has been added meanwhile
+	std::vector<Vec<Dim>> displacement;  ///< displacements of the points, to the last state [m], small or not
+	std::vector<double>   plasticStrain; ///< strain that has been added meanwhile
 };
 
 /// Strains that a body may have by elasticity, for displacements that are small: the moduli are scaled up to that.

@@ -105,7 +105,7 @@ template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<D
 	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size();
 	report.openReactions.resize(boundary.open().size(), Vec3::Zero());
 	std::vector<Vec3> sums(boxes + boundary.open().size(), Vec3::Zero());
-	if (division.processes->rank() == 0) { // who brings along what there is already
+	if (division.processes->rank() == 0) { // first process brings along what there is already
 		std::copy(report.reactions.begin(), report.reactions.end(), sums.begin());
 		std::copy(report.openReactions.begin(), report.openReactions.end(), sums.begin() + boxes);
 	}
@@ -153,7 +153,7 @@ void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim
 	const CutPatches<Dim> cut(system);
 	Eigen::VectorXd       displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
 	if (!cut.nodes.empty()) {
-		const double part           = system.model.atMiddle ? 0.5 : 1; // as InternalForceAtMiddle
+		const double part           = system.model.atMiddle ? 0.5 : 1; // same part in InternalForceAtMiddle
 		displacement.head(d.size()) = part * d;
 		addInternalForce<Dim>(cut.basis, cut.basis.colours, cut.points, system.model.materials, displacement, { internal }, part);
 		addPointForces(cut.basis, pointForces(cloud, system.model, load), external);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What carries the parts of domains that reach behind walls.
+// Forces on the parts of domains that reach behind walls.
 #pragma once
 #include "core/stepping/step_system.hpp"
 #include "core/terms/inertia/motion.hpp"
