@@ -12,15 +12,15 @@ namespace gimpm {
 struct BeamSection {
 	double axialStiffness   = 0; ///< [N]
 	double bendingStiffness = 0; ///< [N m2]
-	double poisson          = 0; ///< of a shell of revolution
+	double poisson          = 0; ///< Poisson's ratio of a shell of revolution
 };
 
 /// A piece as a step begins. Its axes are those of the chord between its ends.
 struct BeamPiece {
 	Vec<2> along;                       ///< from its first to its second end [m]
-	double elongation = 0;              ///< of the chord [m]
+	double elongation = 0;              ///< elongation of the chord [m]
 	double length0    = 1;              ///< without stress [m]
-	Vec<2> turns      = Vec<2>::Zero(); ///< of its ends against the chord, without what has yielded, counterclockwise [rad]
+	Vec<2> turns      = Vec<2>::Zero(); ///< turns of its ends against the chord, without what has yielded, counterclockwise [rad]
 	/// The largest moments at its ends [N m]; 0: a hinge.
 	Vec<2> strength = Vec<2>::Constant(std::numeric_limits<double>::infinity());
 };

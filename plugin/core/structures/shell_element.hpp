@@ -9,8 +9,8 @@ namespace gimpm {
 /// A piece as a step begins. The radius is along x, and the axis of revolution is x = 0.
 struct ShellPiece {
 	BeamPiece meridian;                  ///< its strengths do not count: a shell is elastic
-	Vec<2>    radius0  = Vec<2>::Ones(); ///< of its ends without stress [m]; not both 0
-	Vec<2>    outwards = Vec<2>::Zero(); ///< by how much the radii of its ends are larger than these [m]
+	Vec<2>    radius0  = Vec<2>::Ones(); ///< radii of its ends without stress [m]; not both 0
+	Vec<2>    outwards = Vec<2>::Zero(); ///< growth of the radii of its ends [m]
 	double    slope0   = 0;              ///< sine of the angle of its meridian to the radius, without stress
 };
 
@@ -24,7 +24,7 @@ Energy<6> energyOf(const ShellPiece&, const BeamSection&, const Eigen::Matrix<do
 /// Forces by length of the section, in the centre of the piece or at its two ends.
 struct ShellForces {
 	double axial, shear, hoop; ///< [N/m]; shear as the slope of the moment of a beam
-	Vec<2> moments;            ///< of the meridian on the ends, counterclockwise [N m/m]
+	Vec<2> moments;            ///< moments of the meridian on the ends, counterclockwise [N m/m]
 	Vec<2> hoopMoments;        ///< at the ends, positive where the parallels are bent to the left of the meridian [N m/m]
 };
 ShellForces forcesIn(const ShellPiece&, const BeamSection&, const Eigen::Matrix<double, 6, 1>& u);

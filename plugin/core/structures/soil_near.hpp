@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the soil is like around positions of a line.
+// State of the soil around positions of a line.
 #pragma once
 #include "core/terms/term.hpp"
 

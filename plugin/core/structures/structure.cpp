@@ -32,7 +32,7 @@ template <int Dim> Structure<Dim> Structure<Dim>::asItBegins() const
 {
 	Structure begins = *this;
 	for (auto& bar : begins.bars)
-		bar.pull = bar.pullBefore, bar.jack.reset(); // what a jack has stressed keeps its strain
+		bar.pull = bar.pullBefore, bar.jack.reset(); // stressed by a jack, it keeps its strain
 	if (begins.beam) {
 		Beam& own      = *begins.beam;
 		own.weight     = own.before.weight;

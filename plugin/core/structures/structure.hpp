@@ -29,7 +29,7 @@ template <int Dim> struct Reinforcement {
 		pulled, ///< there is no soil around it: a force pulls it along the bar
 		joined  ///< it is fixed to a vertex of the beam
 	};
-	std::string name = "a bar"; ///< what a message calls it
+	std::string name = "a bar"; ///< name in messages
 	BarSection  section;
 	Head        head          = Head::bonded;
 	int         joint         = -1;    ///< vertex of the beam that the head is joined to
@@ -44,13 +44,13 @@ template <int Dim> struct Reinforcement {
 	std::optional<double> jack {};        ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
 
 	/// State as the step begins.
-	std::vector<Vec<Dim>> positions; ///< of the vertices [m]
-	std::vector<double>   length0;   ///< of the pieces without stress [m]
-	std::vector<double>   strain;    ///< of the pieces: logarithmic, elastic, < 0 where they are slack
-	std::vector<double>   bondForce; ///< of each vertex: along the bar, on the bar against its slip [N]
-	std::vector<double>   slip;      ///< of each vertex: on along the bar against the soil [m]
+	std::vector<Vec<Dim>> positions; ///< positions of the vertices [m]
+	std::vector<double>   length0;   ///< lengths of the pieces without stress [m]
+	std::vector<double>   strain;    ///< strain of the pieces: logarithmic, elastic, < 0 where they are slack
+	std::vector<double>   bondForce; ///< force at each vertex: along the bar, on the bar against its slip [N]
+	std::vector<double>   slip;      ///< slip at each vertex: on along the bar against the soil [m]
 
-	std::vector<double> force; ///< of the pieces, in the last step that was accepted, tension positive [N]
+	std::vector<double> force; ///< force in the pieces, in the last step that was accepted, tension positive [N]
 
 	/// A new one along these vertices.
 	void begin(std::vector<Vec<Dim>> vertices)
@@ -68,8 +68,8 @@ template <int Dim> struct Reinforcement {
 
 /// Soil on one side of a beam, by vertex.
 struct BeamSide {
-	std::vector<double> normalForce; ///< by which the beam presses on it [N]
-	std::vector<double> gap;         ///< where the beam has left it [m]
+	std::vector<double> normalForce; ///< force of the beam on it [N]
+	std::vector<double> gap;         ///< gap that the beam has left [m]
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
 };
 
@@ -92,7 +92,7 @@ struct Beam {
 	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]; of a shell over area
 	bool                isClosed      = false;          ///< the last vertex is the first one
 	bool                isShell       = false;          ///< around the axis x = 0
-	std::vector<char>   isHinge;                        ///< by vertex: no moment there
+	std::vector<char>   isHinge;                        ///< flag by vertex: no moment there
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
@@ -121,12 +121,12 @@ struct Beam {
 
 	/// State as the step begins.
 	std::vector<Vec<2>>     positions;
-	std::vector<double>     turns;      ///< of the vertices in all [rad]
-	std::vector<double>     length0;    ///< of the pieces [m]
-	std::vector<double>     radius0;    ///< of a shell: of the vertices without stress [m]
-	std::vector<double>     slope0;     ///< of a shell: of the pieces, sine of the angle to the radius without stress
-	std::vector<double>     elongation; ///< of the pieces [m]
-	std::vector<Vec<2>>     bend;       ///< of the pieces: elastic turns of their ends [rad]
+	std::vector<double>     turns;      ///< turns of the vertices in all [rad]
+	std::vector<double>     length0;    ///< lengths of the pieces [m]
+	std::vector<double>     radius0;    ///< shell: radii of the vertices without stress [m]
+	std::vector<double>     slope0;     ///< shell: sine of the angle of the pieces to the radius, without stress
+	std::vector<double>     elongation; ///< elongation of the pieces [m]
+	std::vector<Vec<2>>     bend;       ///< elastic turns of the ends of the pieces [rad]
 	std::array<BeamSide, 2> sides;      ///< left and right
 	/// Ahead of the first and of the last vertex, by integration point.
 	std::array<std::array<TipBond, bondsOfTip>, 2> bonds {};
@@ -135,11 +135,11 @@ struct Beam {
 	std::vector<char> isStuck;
 
 	/// In the last step that was accepted; of a shell by metre of its sections.
-	std::vector<double> axialForce; ///< of the pieces [N]
-	std::vector<double> shearForce; ///< of the pieces [N]
+	std::vector<double> axialForce; ///< force in the pieces [N]
+	std::vector<double> shearForce; ///< force in the pieces [N]
 	std::vector<Vec<2>> moments;    ///< at the ends of the pieces, counterclockwise [N m]
-	std::vector<double> hoopForce;  ///< of a shell: of the pieces [N]
-	std::vector<Vec<2>> hoopMoment; ///< of a shell: at the ends of the pieces, positive where it is bent to its left [N m]
+	std::vector<double> hoopForce;  ///< shell: force in the pieces [N]
+	std::vector<Vec<2>> hoopMoment; ///< shell: moments at the ends of the pieces, positive where it is bent to its left [N m]
 
 	/// A new one along these vertices, with an axial force [N].
 	void begin(std::vector<Vec<2>> vertices, double prestress = 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What bars and beams do to the soil that they are in.
+// Action of bars and beams on the soil that they are in.
 #pragma once
 #include "core/grid/attachment.hpp"
 #include "core/structures/structure_system.hpp"
@@ -39,7 +39,7 @@ private:
 	template <class F> void   forJoined(F&& f) const;
 
 	Structure<Dim>&                             structure_;
-	std::vector<std::optional<Attachment<Dim>>> attached_; ///< by vertex, and behind them to the right of those of the beam
+	std::vector<std::optional<Attachment<Dim>>> attached_; ///< positions by vertex, and behind them those to the right of vertices of the beam
 	std::vector<SoilAtVertex>                   soil_;
 	std::optional<StructureSystem<Dim>>         system_;
 	std::string                                 obstacle_;

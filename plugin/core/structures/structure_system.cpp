@@ -134,7 +134,7 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 		for (std::size_t v = 0; v < bar.positions.size() && bar.slips(); ++v) {
 			const Station& station = stations_[first + v];
 			if (station.slip < 0 || !station.moves) continue;
-			double length = 0; // of the bar that is bonded here
+			double length = 0; // length of the bar that is bonded here
 			if (v > 0 && !(v == 1 && bar.hasFreeLength)) length += bar.length0[v - 1] / 2;
 			if (v < bar.length0.size()) length += bar.length0[v] / 2;
 			Spring spring { {}, length * bar.bondStiffness, bar.bondForce[v], length * bar.bond, false, &bar.bondForce[v] };

@@ -8,12 +8,12 @@ namespace gimpm {
 /// The soil at a vertex as a step begins.
 struct SoilAtVertex {
 	bool   exists       = false;
-	int    sides        = 0; ///< of a beam: bit 0 to its left, bit 1 to its right
+	int    sides        = 0; ///< sides of a beam: bit 0 to its left, bit 1 to its right
 	double normalStress = 0; ///< on the line, pressure positive [Pa]
 	double shearStress  = 0; ///< on what is to the left of the line, from what is to its right, along it [Pa]
 	double young        = 0; ///< [Pa]
 	double cellSize     = 1; ///< [m]
-	double area         = 0; ///< of a bond [m], around an axis [m2]
+	double area         = 0; ///< area of a bond [m], around an axis [m2]
 };
 
 /// Unknowns are the displacements of the soil at the vertices that have some, Dim each, and then those of the structure
@@ -56,13 +56,13 @@ private:
 	/// A vertex: what its displacement is made of.
 	struct Station {
 		int                soil       = -1;   ///< first unknown of the soil around it
-		int                toTheRight = -1;   ///< of a beam: of the soil to its right, where that is another body
-		bool               moves      = true; ///< with the soil
+		int                toTheRight = -1;   ///< beam: first unknown of the soil to its right, where that is another body
+		bool               moves      = true; ///< it moves with the soil
 		int                slip       = -1;   ///< unknown along `direction`
 		Vec<Dim>           direction  = Vec<Dim>::Zero();
-		std::array<int, 3> own { -1, -1, -1 }; ///< of a beam: x, y, turn
-		int                turnBehind = -1;    ///< of a hinge in a shell: of the piece behind it
-		bool               isFree     = false; ///< of a beam
+		std::array<int, 3> own { -1, -1, -1 }; ///< beam: unknowns x, y, turn
+		int                turnBehind = -1;    ///< hinge in a shell: unknown of the piece behind it
+		bool               isFree     = false; ///< vertex of a beam
 	};
 	/// A spring with a limited force.
 	struct Spring {
@@ -71,7 +71,7 @@ private:
 		bool       oneSided;                ///< a force that cannot be negative, without memory of what it would have been
 		double*    memory;
 		double*    gap  = nullptr;
-		double     area = 1; ///< that the force is divided by to be remembered
+		double     area = 1; ///< area that the force is divided by to be remembered
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
