@@ -28,7 +28,7 @@ constexpr double reachOfBodies = 0.5;
 /// A body of points that others may meet.
 template <int Dim> struct MeetingBody {
 	std::string  name;
-	int          layer = 0; ///< of its nodes
+	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
 	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later with stretchOfPieces. Returns
@@ -67,7 +67,7 @@ template <int Dim> struct BodyContacts {
 	/// ones what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
 	double                  weight     = 1;
 	StepKind                kind       = StepKind::quasiStatic;
-	double                  energy     = 0;  ///< that has come into the system before this time step [J]
+	double                  energy     = 0;  ///< energy that has come into the system before this time step [J]
 	double                  energyGain = 0;  ///< work in that step beyond what contact had stored [J]
 	const BodyContact<Dim>* acting     = {}; ///< the term of the step that is being made
 };
@@ -103,24 +103,24 @@ private:
 	/// functions of the grid, and between the vertices of its piece by a little less or more than these: so what
 	/// presses evenly is in balance with an even stress wherever pieces lie in the cells.
 	struct Near {
-		int                     piece;  ///< of the master's facets
-		std::array<double, Dim> weight; ///< of the vertices, at the foot
+		int                     piece;  ///< number among the master's facets
+		std::array<double, Dim> weight; ///< weights of the vertices, at the foot
 		Attachment<Dim>         foot;
 	};
 	/// On the surface of the slave of a meeting.
 	struct ContactPoint {
-		int               meeting, piece; ///< of its facets
+		int               meeting, piece; ///< numbers of the meeting, and of the facet
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
 		double            young           = 0;
-		double            normalForce     = 0;                ///< as the step begins [N]
+		double            normalForce     = 0;                ///< force as the step begins [N]
 		Vec<Dim>          tangentialForce = Vec<Dim>::Zero(); ///< the same
 		double            closed          = 0;                ///< gap at which it begins to be pressed [m]
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
 		const Near*       first = nullptr; ///< the nearest as the step begins
 	};
-	using Positions = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
+	using Positions = std::vector<std::vector<Vec<Dim>>>; ///< positions of the facets of each body
 	struct Touching {
 		const ContactPoint& contactPoint;
 		const Near&         near;
@@ -180,7 +180,7 @@ private:
 	const bool                isRing_;
 	bool                      isExact_ = false; // derivatives are those of the forces
 	const Eigen::Index        unknowns_;
-	std::vector<Facets<Dim>>  facets_; // of the bodies
+	std::vector<Facets<Dim>>  facets_; // facets of the bodies
 	Positions                 start_;
 	std::vector<ContactPoint> contactPoints_;
 	std::string               obstacle_;

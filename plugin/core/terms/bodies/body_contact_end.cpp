@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What bodies that meet have come to as a step ends.
+// State of bodies that meet as a step ends.
 #include "core/base/sentence.hpp"
 #include "core/terms/bodies/body_contact.hpp"
 #include <Eigen/Geometry>
@@ -45,7 +45,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::Vector
 {
 	if (system_.kind != StepKind::dynamic) return {};
 	const double found = energyGain(d);
-	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // as the first step begins nothing has come in
+	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // nothing has come in as the first step begins
 	return { Failure::gainsEnergy,
 		 sentence("contact of bodies of points would give ", found, " J that it had not stored, of ", system_.energy, " J that have come in"),
 		 "Smaller steps (O.dt) make it less." };

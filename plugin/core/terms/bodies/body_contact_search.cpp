@@ -170,7 +170,7 @@ template <int Dim> void BodyContact<Dim>::keepApart(ContactPoint* begin, Contact
 		if (!contactPoint->first) return;
 		normalForce += contactPoint->normalForce, gap += penaltyOf(*contactPoint) * contactPoint->closed, penalty += penaltyOf(*contactPoint);
 	}
-	const double opens   = (gap + normalForce) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
+	const double opens   = (gap + normalForce) / penalty; // gap at which the pressures that the gaps differ by are the whole of the mean one
 	const auto   isOpen  = [&](const ContactPoint& contactPoint) { return contactPoint.closed > opens; };
 	double       pressed = 0;
 	for (const ContactPoint* contactPoint = begin; contactPoint != end; ++contactPoint)

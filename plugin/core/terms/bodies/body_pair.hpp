@@ -15,9 +15,9 @@ template <int Dim> struct Facing {
 	explicit Facing(const PairPositions<Dim>&);
 
 	double                    gap;    ///< along the normal of the piece, < 0 behind it [m]
-	Vec<Dim>                  normal; ///< of the piece, outward
+	Vec<Dim>                  normal; ///< normal of the piece, outward
 	std::array<double, Dim>   weight;
-	std::array<Vec<Dim>, Dim> weightGradient; ///< of the weights, along the piece [1/m]
+	std::array<Vec<Dim>, Dim> weightGradient; ///< gradients of the weights, along the piece [1/m]
 	/// Unit vectors along the piece, which turn with it: the first one along its first side.
 	std::array<Vec<Dim>, Dim - 1> along;
 };
@@ -36,7 +36,7 @@ template <int Dim> struct PairAction {
 	std::array<Vec<Dim>, Dim + 1> force;                              ///< on the contact point and on the vertices [N]
 	double                        normalForce     = 0;                ///< [N]
 	Vec<Dim>                      tangentialForce = Vec<Dim>::Zero(); ///< on the contact point [N]
-	Vec<Dim>                      slip  = Vec<Dim>::Zero(); ///< of the contact point along the matter of the piece, since the start of the step [m]
+	Vec<Dim>                      slip  = Vec<Dim>::Zero(); ///< slip of the contact point along the matter of the piece, since the start of the step [m]
 	bool                          slips = false;
 };
 
@@ -46,7 +46,7 @@ template <int Dim> struct PairForce : PairAction<Dim> {
 
 	using Tangent = Eigen::Matrix<double, size, size>;
 
-	Tangent tangent = Tangent::Zero(); ///< of the forces by the contact points [N/m], if it was asked for
+	Tangent tangent = Tangent::Zero(); ///< derivative of the forces by the contact points [N/m], if it was asked for
 };
 
 /// Force of a penalty on the gap, and of Coulomb's friction with a cap, by return mapping from a penalty on the slip.

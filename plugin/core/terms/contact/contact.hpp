@@ -16,15 +16,15 @@ namespace gimpm {
 /// A contact point on the surface of a body that had soil in front of it at the end of a step that was accepted.
 template <int Dim> struct ContactRecord {
 	int          body;
-	std::int64_t number;      ///< of the contact point on the body, and above contactPointBits the layer of the soil
+	std::int64_t number;      ///< number of the contact point on the body, and above contactPointBits the layer of the soil
 	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
-	double       normalForce     = 0;                                           ///< [N]
-	double       areaFraction    = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
-	double       travel          = 0;                                           ///< how far soil moved along the body in that step [m]
-	double       creep           = 0;                                           ///< the part of it in which soil moves through the grid [m]
+	double       normalForce     = 0; ///< [N]
+	double       areaFraction    = 0; ///< area fraction of soil in front of it (core/terms/contact/contact_sight.hpp)
+	double       travel          = 0; ///< distance that soil moved along the body in that step [m]
+	double       creep           = 0; ///< the part of it in which soil moves through the grid [m]
 	Vec<Dim>     tangentialForce = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
-	Vec<Dim>     position = Vec<Dim>::Zero();                                   ///< of the soil at the end of the step [m]
+	Vec<Dim>     position = Vec<Dim>::Zero();                                   ///< position of the soil at the end of the step [m]
 };
 
 /// So a number stays one that doubles have.
@@ -35,7 +35,7 @@ struct ContactLoad {
 	using Stiffness = Eigen::Matrix<double, 6, 6>;
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
 	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
-	double    area = 0, young = 0;                         ///< of the contact points that touch [m2], and that by Young's modulus of the soil there [N]
+	double    area = 0, young = 0; ///< area of the contact points that touch [m2], and that by Young's modulus of the soil there [N]
 
 	ContactLoad& operator+=(const ContactLoad& other)
 	{
@@ -51,12 +51,12 @@ template <int Dim> class Contact;
 template <int Dim> struct ContactSystem {
 	std::vector<RigidBody<Dim>>     bodies;
 	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
-	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by body and number
+	std::vector<ContactRecord<Dim>> records {}; ///< contact points of the last step that was accepted, sorted by body and number
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
-	double                          weight = 1; ///< with which forces enter the balance of a time step (core/terms/inertia/time_scheme.hpp)
+	double                          weight = 1; ///< weight of forces in the balance of a time step (core/terms/inertia/time_scheme.hpp)
 	StepKind                        kind   = StepKind::quasiStatic;
-	double                          energy = 0; ///< that has come into the system before this time step [J]
+	double                          energy = 0; ///< energy that has come into the system before this time step [J]
 	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
 	double        energyGain = 0;
 	Contact<Dim>* acting {}; ///< the term of the step that is being made
@@ -114,13 +114,13 @@ private:
 	struct ContactPoint {
 		int                    body;
 		std::int64_t           number;
-		Vec<Dim>               soil;                               ///< where that begins, at the start of the step
-		Vec<Dim>               carried;                            ///< by which the body would have moved it by the end
+		Vec<Dim>               soil;                               ///< begin of the soil, at the start of the step
+		Vec<Dim>               carried;                            ///< displacement of it with the body by the end
 		Vec<Dim>               normal;                             ///< at the end
-		double                 away;                               ///< of the soil from the body, at the start [m]
-		double                 gap;                                ///< what counts as that
-		double                 areaFraction;                       ///< of soil in front of it
-		double                 area, young;                        ///< of the surface with soil in front of it [m2]; of the soil [Pa]
+		double                 away;                               ///< distance of the soil from the body, at the start [m]
+		double                 gap;                                ///< distance that counts as that
+		double                 areaFraction;                       ///< area fraction of soil in front of it
+		double                 area, young;                        ///< area of the surface with soil in front of it [m2]; modulus of the soil [Pa]
 		Vec<Dim>               tangentialForce = Vec<Dim>::Zero(); ///< at the start, turned with the body
 		ContactLaw<Dim>        law;
 		Attachment<Dim>        attached;
@@ -166,14 +166,14 @@ private:
 	std::string                      unbalanced() const;
 
 	ContactSystem<Dim>&       system_;
-	Eigen::VectorXd           solvedAt_;  ///< where free bodies are in balance, if there are some
-	double                    tolerance_; // of a gap that counts as touching [m]
+	Eigen::VectorXd           solvedAt_;  ///< displacements at which free bodies are in balance, if there are some
+	double                    tolerance_; // tolerance of a gap that counts as touching [m]
 	bool                      isRing_, isSymmetric_ = true;
-	std::vector<Near>         near_;          // by body
-	std::vector<ContactPoint> contactPoints_; // by body and number
+	std::vector<Near>         near_;          // points near bodies, by body
+	std::vector<ContactPoint> contactPoints_; // sorted by body and number
 	std::string               obstacle_;
 
-	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // with the number of its record
+	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // points with the numbers of their records
 	const PointCloud<Dim>&                               cloud_;
 	const CloudBasis<Dim>&                               basis_;
 	const Grid<Dim>&                                     grid_;

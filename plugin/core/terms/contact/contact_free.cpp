@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-constexpr double balanced = 1e-11; ///< what may be left of forces, over their absolute contributions
+constexpr double balanced = 1e-11; ///< admitted rest of forces, over their absolute contributions
 constexpr int    most     = 200;   ///< iterations
 
 template <int Dim> struct Balance {

@@ -32,7 +32,7 @@ template <int Dim> struct FreeBody {
 	/// A first guess, with the values of what is given; then a result [m], [rad].
 	Vector motion    = Vector::Zero();
 	bool   isAtRest  = true; ///< in balance with the soil at the last iterate
-	double imbalance = 0;    ///< what is left of the forces there, over their absolute contributions
+	double imbalance = 0;    ///< rest of the forces there, over their absolute contributions
 };
 
 /// A turn as a rotation.

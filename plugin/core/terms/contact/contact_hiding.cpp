@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What other bodies hide of a body: contact points inside of them, and soil behind them.
+// Parts of a body that others hide: contact points inside of them, and soil behind them.
 #include "core/terms/contact/contact.hpp"
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a rigid body does to one contact point of the soil that touches it.
+// Force of a rigid body on one contact point of the soil that touches it.
 #pragma once
 #include "core/terms/contact/rigid_body.hpp"
 #include <optional>
@@ -7,9 +7,9 @@
 namespace gimpm {
 
 template <int Dim> struct ContactLaw {
-	double normalStiffness, tangentialStiffness; ///< of the penalty [N/m]
+	double normalStiffness, tangentialStiffness; ///< stiffness of the penalty [N/m]
 	double frictionCoefficient;                  ///< [-]
-	double cap;                                  ///< of the tangential force [N]
+	double cap;                                  ///< cap of the tangential force [N]
 	/// Normal force of the neighbouring contact points and this one, which friction refers to at least [N]; the gap
 	/// up to which it does [m].
 	double around = 0, reach = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a body gets of the force at a contact point.
+// Load on a body from the force at a contact point.
 #include "core/terms/contact/contact.hpp"
 #include "core/terms/contact/contact_nodes.hpp"
 #include <cmath>

@@ -13,7 +13,7 @@ template <int Dim> std::array<double, 3> nodeWeights(const RigidBody<Dim>&, cons
 struct ForceOnNodes {
 	Vec3   force, position; ///< [N]; at the end of the step [m]
 	Mat3   resists;         ///< stiffness of what exerts it [N/m]
-	double area, modulus;   ///< what of the surface that acts on [m2]; Young's modulus of the soil [Pa]
+	double area, modulus;   ///< area of the surface that acts on it [m2]; Young's modulus of the soil [Pa]
 };
 
 /// Distributes a contact force to the nodes of a body: the force by the weights, and the moment about the contact point

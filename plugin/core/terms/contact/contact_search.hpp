@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which material points are near which rigid bodies when a step begins.
+// Material points near rigid bodies when a step begins.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/terms/contact/rigid_body.hpp"

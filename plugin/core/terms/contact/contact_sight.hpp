@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What soil there is in front of a contact point on the surface of a body.
+// Soil in front of a contact point on the surface of a body.
 #pragma once
 #include "core/base/types.hpp"
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What of a body that touches soil is small: edges, tips and borders.
+// Small parts of a body that touches soil: edges, tips and borders.
 #pragma once
 #include "core/terms/contact/rigid_body.hpp"
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// By which pressure contact points on a round body rub that soil does not reach because it is straight within a cell.
+// Pressure by which contact points on a round body rub that soil does not reach because it is straight within a cell.
 #include "core/terms/contact/contact.hpp"
 #include <array>
 #include <cmath>

@@ -12,10 +12,10 @@ template <int Dim> struct Facets {
 	using Piece     = typename Surface<Dim>::Piece;
 	using Positions = std::vector<Vec<Dim>>;
 
-	Positions                                   start; ///< of the vertices [m]
+	Positions                                   start; ///< positions of the vertices [m]
 	std::vector<std::optional<Attachment<Dim>>> at;    ///< none: there is no material near
 	std::vector<Piece>                          pieces;
-	std::vector<int>                            whole; ///< of each piece, the piece of the surface that it is part of
+	std::vector<int>                            whole; ///< piece of the surface that each piece is part of
 
 	/// Facets of the body whose nodes are in a layer.
 	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);

@@ -28,7 +28,7 @@ AlongAxis weightsAlong(int cell, double local, double share)
 	return f;
 }
 
-/// Of a node, if it is beyond a plane of symmetry at the face of a cell on this side; 0: there is none.
+/// Mirror image of a node, if it is beyond a plane of symmetry at the face of a cell on this side; 0: there is none.
 int image(int node, int cell, int mirror)
 {
 	if (mirror < 0) return std::max(node, 2 * cell - node);

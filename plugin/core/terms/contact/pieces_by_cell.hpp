@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which pieces of a surface may be near a contact point.
+// Pieces of a surface that may be near a contact point.
 #pragma once
 #include "core/terms/contact/facets.hpp"
 #include <unordered_map>

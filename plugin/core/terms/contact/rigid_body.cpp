@@ -75,7 +75,7 @@ template <int Dim> std::array<Vec<Dim>, Dim> cornersAt(const RigidShape<Dim>& sh
 /// Least gap between a capsule and a position on its way from begin to end.
 template <int Dim> double leastDistance(const std::array<Vec<Dim>, Dim>& corners, const Vec<Dim>& from, const Vec<Dim>& way)
 {
-	constexpr int parts = 16; // of a way that is no longer than a cell
+	constexpr int parts = 16; // parts of a way that is no longer than a cell
 	double        least = std::numeric_limits<double>::infinity();
 	for (int i = 0; i <= parts; ++i)
 		least = std::min(least, fromCapsule<Dim>(corners, 0, from + double(i) / parts * way).gap);

@@ -32,13 +32,13 @@ enum class RigidKind { ball, block, plane, sheet, capsule };
 /// capsule is all that is within its radius of a segment, in space.
 template <int Dim> struct RigidShape {
 	RigidKind                 kind     = RigidKind::ball;
-	double                    radius   = 0;                ///< of a ball, a capsule, or the rounded edges of a block; half the thickness of a sheet [m]
-	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< of a block [m]
-	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< of a plane through the body's position, unit, out of the body
-	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, or the ends of a capsule, in the body's axes [m]; of others not set
+	double                    radius   = 0; ///< radius of a ball, a capsule, or the rounded edges of a block; half the thickness of a sheet [m]
+	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< half lengths of a block [m]
+	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< normal of a plane through the body's position, unit, out of the body
+	std::array<Vec<Dim>, Dim> corners;                     ///< corners of a sheet, or the ends of a capsule, in the body's axes [m]; not set for others
 	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
 	int                       parts      = 0;              ///< into which the longest edge of a body that deforms is divided; 0: by its length
-	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the contact points on a ball, which may have turned on it
+	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< axes of the contact points on a ball, which may have turned on it
 };
 
 /// Unit normal of a sheet; in the plane that on the right of the way from the first corner to the second.
@@ -49,22 +49,22 @@ Vec3   normalOf(const std::array<Vec3, 3>& corners);
 template <int Dim> struct Proximity {
 	double   gap              = 0;                                        ///< distance to the surface, < 0 inside [m]
 	Vec<Dim> normal           = Vec<Dim>::Zero();                         ///< unit, out of the body
-	Mat<Dim> normalDerivative = Mat<Dim>::Zero();                         ///< by the position [1/m]
-	double   beside           = -std::numeric_limits<double>::infinity(); ///< how far the foot of the normal is beside the edge of a sheet, < 0 on it [m]
+	Mat<Dim> normalDerivative = Mat<Dim>::Zero();                         ///< derivative by the position [1/m]
+	double   beside           = -std::numeric_limits<double>::infinity(); ///< distance of the foot of the normal beyond the edge of a sheet, < 0 on it [m]
 };
 
 template <int Dim> struct RigidBody {
 	RigidShape<Dim> shape;
 	std::string     name;                                                          ///< for messages
-	int             owner               = 0;                                       ///< who moves it, and takes its forces: a clump or itself
+	int             owner               = 0;                                       ///< owner that moves it, and takes its forces: a clump or itself
 	bool            isNew               = false;                                   ///< what it overlaps at the start is taken as fitting
 	double          frictionCoefficient = 0;                                       ///< [-]
 	double          adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
-	double          stiffness           = 0;                                       ///< of the contact, over Young's modulus per cell [-]
-	Pose<Dim>       begin {}, end {};                                              ///< of the step
-	double          turn     = 0;  ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
-	int             soilSide = 0;  ///< of a two-sided surface that has had soil in sight on one side alone: that side
-	double          slack    = 0;  ///< how far behind the surface soil still counts as on that side [m]
+	double          stiffness           = 0;                                       ///< stiffness of the contact, over Young's modulus per cell [-]
+	Pose<Dim>       begin {}, end {};                                              ///< poses at both ends of the step
+	double          turn     = 0;  ///< rotation by which it turns from one load step to the next, also where its poses do not tell [rad]
+	int             soilSide = 0;  ///< side on which alone a two-sided surface has had soil in sight
+	double          slack    = 0;  ///< distance behind the surface up to which soil still counts as on that side [m]
 	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
 	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
 	/// Owners of those nodes, and the turn that they give the body about its axis in the step, for a capsule [rad].
