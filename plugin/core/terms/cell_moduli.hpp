@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How stiff the soil in a cell is: the measure of what stabilises or holds it.
+// Stiffness of the soil in a cell: the measure of what stabilises or holds it.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include <functional>

@@ -13,8 +13,8 @@ namespace gimpm {
 /// Sum to which a term adds its part, one block a field. The sum of all terms has to vanish for fields other than the
 /// displacements: their sources belong to terms, too.
 template <int Dim> struct FieldSum {
-	std::vector<Eigen::VectorXd>& force;                 ///< of the displacements [N]
-	std::vector<Eigen::VectorXd>& absoluteContributions; ///< of the parts that make it up, whatever their signs: with them the residual is compared
+	std::vector<Eigen::VectorXd>& force;                 ///< forces by field, those of the displacements [N]
+	std::vector<Eigen::VectorXd>& absoluteContributions; ///< sums of the parts that make it up, whatever their signs: with them the residual is compared
 	/// Derivative of the first block by displacements of neighbours, when it is asked for; reset and marked.
 	NodeMatrix<Dim>* K         = nullptr;
 	Couplings*       couplings = nullptr; ///< all other derivatives; with K

@@ -110,7 +110,7 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 				forNeighbours(cell, a, isAbove, grid, [&](Key neighbour, int level) {
 					if (is || contains(populated, neighbour)) return;
 					Index<Dim> face
-					        = level < Grid<Dim>::level(cell) ? Grid<Dim>::index(neighbour) : i; // of its cells, the one on the lower corner
+					        = level < Grid<Dim>::level(cell) ? Grid<Dim>::index(neighbour) : i; // cell beside the face, on its lower corner
 					face[a] = isAbove ? i[a] + (1 << Grid<Dim>::level(cell)) : i[a];
 					is      = !boundary.lowerFaceIsWall(face, a, level, Grid<Dim>::layer(cell));
 				});

@@ -35,7 +35,7 @@ template <int Dim> struct GhostFace {
 			if (a != axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a, level()), ++bit;
 		return node;
 	}
-	int level() const { return Grid<Dim>::level(lower); } ///< of the nodes
+	int level() const { return Grid<Dim>::level(lower); } ///< level of the nodes
 };
 
 /// Faces of a body, sorted. There are none across walls.

@@ -44,7 +44,7 @@ public:
 		for (int a = 0; a < size(); ++a) {
 			rising.clear();
 			std::copy_if(near_[a].begin(), near_[a].end(), std::back_inserter(rising), [](int b) { return b >= 0; });
-			if (!std::is_sorted(rising.begin(), rising.end())) std::sort(rising.begin(), rising.end()); // of a periodic grid
+			if (!std::is_sorted(rising.begin(), rising.end())) std::sort(rising.begin(), rising.end()); // order may differ in a periodic grid
 			rising.erase(std::unique(rising.begin(), rising.end()), rising.end());
 			K.markRow({ field, a }, other, rising);
 		}
@@ -82,7 +82,7 @@ public:
 
 private:
 	double*                     values_ = nullptr;
-	std::vector<std::ptrdiff_t> begin_;   // of each row
+	std::vector<std::ptrdiff_t> begin_;   // begin of each row
 	std::vector<int>            offsets_; // from there
 };
 

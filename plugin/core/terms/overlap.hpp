@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How the domains of the points share the cells.
+// Overlap of the domains of the points with the cells.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 

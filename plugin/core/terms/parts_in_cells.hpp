@@ -8,8 +8,8 @@ namespace gimpm {
 
 /// The parts of a domain in the lower (0) and the upper cell (1) along one axis.
 struct AxisParts {
-	double share[2];  ///< of the domain
-	double centre[2]; ///< of the part, in its cell: 0 to 1
+	double share[2];  ///< part of the domain
+	double centre[2]; ///< centre of the part, in its cell: 0 to 1
 
 	AxisParts(const AxisBasis& basis, bool isInTwo)
 	{
@@ -43,8 +43,8 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 
 /// The parts of a ring's section in the lower and the upper cell along x.
 struct RingParts {
-	double size, face; ///< of a cell, and radius of the face in or above the section [m]
-	double radius[2];  ///< of the centres of the parts [m]
+	double size, face; ///< size of a cell, and radius of the face in or above the section [m]
+	double radius[2];  ///< radii of the centres of the parts [m]
 
 	/// In a refined grid a domain reaches no farther than half a cell.
 	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo, bool isRefined)

@@ -6,7 +6,7 @@ namespace gimpm {
 
 enum class StepKind {
 	quasiStatic, ///< without inertia
-	dynamic,     ///< with inertia, implicit or explicit
+	dynamic,     ///< time step with inertia, implicit or explicit
 };
 
 } // namespace gimpm

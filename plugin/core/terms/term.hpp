@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the discrete equilibrium of a load step is the sum of.
+// Terms, of which the discrete equilibrium of a load step is the sum.
 #pragma once
 #include "core/base/failure.hpp"
 #include "core/grid/cloud_basis.hpp"
@@ -30,7 +30,7 @@ struct PointFailure {
 struct Refusal {
 	Failure     failure = Failure::refused;
 	std::string cause;  ///< a clause
-	std::string advice; ///< what may help, in sentences
+	std::string advice; ///< remedies in sentences
 };
 
 /// Error of one quantity in a step, and its tolerance.
@@ -45,7 +45,7 @@ struct LocalError {
 template <int Dim> struct AssembledTerms {
 	Eigen::VectorXd& force;                           ///< [N]
 	NodeMatrix<Dim>* K                     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
-	Eigen::VectorXd* absoluteContributions = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
+	Eigen::VectorXd* absoluteContributions = nullptr; ///< sums of the parts that make up the force, whatever their signs, when they are asked for [N]
 };
 
 /// One kind of forces that resist the displacements d of the nodes in the step: residual = external forces - sum of the
@@ -118,7 +118,7 @@ template <int Dim> struct StepContext {
 	const std::function<Eigen::VectorXd()>&
 	                  imbalance;  ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 	const OwnedNodes& ownedNodes; ///< the nodes around which this process knows all points; what is summed over points is completed by it
-	const Division&   division;   ///< of the points among processes, of which this one has its own and copies
+	const Division&   division;   ///< division of the points among processes, of which this one has its own and copies
 };
 
 /// Makes a term for a step.

@@ -24,8 +24,8 @@ template <int Dim> struct SurfaceLoad {
 	int layer = layerOfPosition;
 	/// Its outer side is still to be compared with where material is.
 	bool        isNew     = false;
-	Vec<Dim>    resultant = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]
-	std::string name      = "a loaded surface"; ///< what a message calls it
+	Vec<Dim>    resultant = Vec<Dim>::Zero();   ///< resultant of both, in the last step that was accepted [N]
+	std::string name      = "a loaded surface"; ///< name in messages
 };
 
 /// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions:
@@ -58,10 +58,10 @@ private:
 
 	SurfaceLoad<Dim>&            load_;
 	bool                         isRing_;   // around an axis of symmetry
-	std::vector<Attachment<Dim>> attached_; // of the vertices
+	std::vector<Attachment<Dim>> attached_; // positions of the vertices
 	bool                         isSymmetric_;
 	std::string                  obstacle_;
-	int                          layer_ = 0; // of the body that it is on
+	int                          layer_ = 0; // layer of the body that it is on
 	/// Flags of pieces that reach from beside a line that parts the body to where that is whole: their nodes are in
 	/// two layers, which the matrix over nodes does not couple. Their part of the Jacobian is left out, which costs
 	/// iterations only.

@@ -19,7 +19,7 @@ template <int Dim> struct AbsorbingBoundary {
 	Vec<Dim>                incomingBefore = Vec<Dim>::Zero();
 	Vec<Dim>                incoming       = Vec<Dim>::Zero(); ///< the same where forces of the step are looked at
 	bool                    hasBegun       = false;
-	std::map<Key, Vec<Dim>> borne {};                 ///< what goes on acting, by node [N]
+	std::map<Key, Vec<Dim>> borne {};                 ///< force that goes on acting, by node [N]
 	Vec<Dim>                force = Vec<Dim>::Zero(); ///< on the body in the last step that was accepted [N]
 	double                  work  = 0;                ///< on the body in that step [J]
 	std::string             name {};                  ///< for messages

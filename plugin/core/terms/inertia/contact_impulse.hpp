@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What contact of bodies of points does to velocities of nodes in an explicit step.
+// Change of velocities of nodes by contact of bodies of points in an explicit step.
 #pragma once
 #include "core/terms/bodies/body_contact.hpp"
 #include "core/terms/inertia/nodal_mass.hpp"
@@ -21,7 +21,7 @@ public:
 private:
 	struct Iterate {
 		Eigen::VectorXd velocity, impulse, rest; // rest: what is out of balance
-		double          size;                    // of what it is out of balance by round-off or for want of iterations
+		double          size;                    // part out of balance by round-off or for want of iterations
 	};
 	Iterate                        at(Eigen::VectorXd velocity, const Eigen::VectorXd& free, Couplings*) const;
 	std::optional<Eigen::VectorXd> change(const Iterate&, const Couplings&) const;

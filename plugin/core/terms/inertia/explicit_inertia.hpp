@@ -22,7 +22,7 @@ public:
 	bool        meets() const { return meets_; }
 	std::string obstacle() const; ///< why the step cannot be made, a clause; empty if it can
 	bool        isSingular() const { return isSingular_; }
-	int         iterations() const { return mass_.iterations(); } ///< of conjugate gradients
+	int         iterations() const { return mass_.iterations(); } ///< iterations of conjugate gradients
 	double      seconds() const { return seconds_; }              ///< for all that has to do with mass
 
 	Eigen::VectorXd displacements() const { return motion_.duration * middle_; }
@@ -54,8 +54,8 @@ private:
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false, meets_ = true;
 	std::vector<Vec<Dim>>                      atMiddle_;           // velocities of the points
-	Eigen::VectorXd                            momentum_;           // of the points, at the nodes, in the middle of the step
-	Eigen::VectorXd                            impulse_;            // of contact of bodies with each other, beyond what acts as the step begins
+	Eigen::VectorXd                            momentum_;           // momentum of the points, at the nodes, in the middle of the step
+	Eigen::VectorXd                            impulse_;            // impulse of contact of bodies with each other, beyond what acts as the step begins
 	Eigen::VectorXd                            start_, middle_;     // velocities of the nodes, the former where there is damping
 	Eigen::VectorXd                            acceleration_, end_; // at the end, and velocities there
 	Eigen::VectorXd                            blow_, jump_;        // impulse of what holds nodes as the step begins, and the velocities that it changes

@@ -21,15 +21,15 @@ template <int Dim> struct GroundMotion {
 template <int Dim> struct GroundEdge {
 	/// At the start of the step; outward normals point away from the body.
 	Surface<Dim>          surface;
-	std::vector<Mat<Dim>> drag;             ///< of the vertices [N s/m]
-	std::vector<Mat<Dim>> stiffness;        ///< of the vertices [N/m]; empty: no springs
+	std::vector<Mat<Dim>> drag;             ///< drag of the vertices [N s/m]
+	std::vector<Mat<Dim>> stiffness;        ///< stiffness of the vertices [N/m]; empty: no springs
 	GroundMotion<Dim>     before;           ///< at the start of the step
-	GroundMotion<Dim>     now;              ///< where forces of the step are looked at
+	GroundMotion<Dim>     now;              ///< motion for which forces of the step are evaluated
 	bool                  acts     = true;  ///< false: its vertices move, and tell their velocities
 	bool                  atMiddle = false; ///< forces are looked at in the middle of the step
 	bool                  hasBegun = false;
-	std::vector<Vec<Dim>> borne {};                       ///< what has held the body there, and goes on acting, on the vertices [N]
-	std::vector<Vec<Dim>> velocity {};                    ///< of the vertices, where the forces of the last accepted step were looked at [m/s]
+	std::vector<Vec<Dim>> borne {};                       ///< force that has held the body there, and goes on acting, on the vertices [N]
+	std::vector<Vec<Dim>> velocity {};                    ///< velocity of the vertices, for which the forces of the last accepted step were evaluated [m/s]
 	Vec<Dim>              force       = Vec<Dim>::Zero(); ///< on the body in that step, without that of springs [N]
 	Vec<Dim>              springForce = Vec<Dim>::Zero();
 	double                work = 0, springWork = 0; ///< on the body in that step [J]
@@ -54,7 +54,7 @@ private:
 	Vec<Dim>    forceAt(std::size_t vertex, const Vec<Dim>& velocity, const GroundMotion<Dim>&) const; // on the body
 
 	GroundEdge<Dim>&             edge_;
-	std::vector<Attachment<Dim>> attached_; // of the vertices
+	std::vector<Attachment<Dim>> attached_; // positions of the vertices
 	std::string                  obstacle_;
 };
 
@@ -73,10 +73,10 @@ public:
 
 private:
 	Vec<Dim> forceAt(std::size_t vertex, const Vec<Dim>& moved, const GroundMotion<Dim>&) const; // on the body
-	double   share() const { return edge_.atMiddle ? 0.5 : 1; }                                  // of the displacements of the step
+	double   share() const { return edge_.atMiddle ? 0.5 : 1; }                                  // part of the displacements of the step
 
 	GroundEdge<Dim>&             edge_;
-	std::vector<Attachment<Dim>> attached_; // of the vertices
+	std::vector<Attachment<Dim>> attached_; // positions of the vertices
 	std::string                  obstacle_;
 };
 

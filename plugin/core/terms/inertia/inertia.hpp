@@ -42,7 +42,7 @@ public:
 	double gridWork(const Eigen::VectorXd& d);
 
 	const Motion<Dim>& motion() const { return motion_; }
-	double             kineticEnergy() const; ///< of the points as the step begins, of all processes [J]
+	double             kineticEnergy() const; ///< energy of the points as the step begins, of all processes [J]
 
 private:
 	using Side = typename NodalMass<Dim>::Side;
@@ -59,12 +59,12 @@ private:
 	void            solve(const std::vector<Side>&);
 	void            solveByFactor(const std::vector<Side>&);
 	void            solveAlong(int axis, const Side&, const Eigen::VectorXd& rest);
-	Eigen::VectorXd solved(const Eigen::VectorXd& right); // where what is held stays at zero
+	Eigen::VectorXd solved(const Eigen::VectorXd& right); // solution, zero at constrained nodes
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	const Pushed&   pushedAt(const Eigen::VectorXd& d);
 	Eigen::VectorXd withoutContact(const Eigen::VectorXd& d); // acceleration at the end
-	Eigen::VectorXd growthAt(const Eigen::VectorXd& d);       // of velocities, without that by a blow
+	Eigen::VectorXd growthAt(const Eigen::VectorXd& d);       // growth of velocities, without that by a blow
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofExtent(const Eigen::VectorXd& acceleration) const;
 	bool            isConstrained(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
@@ -81,7 +81,7 @@ private:
 	const std::vector<LooseCell<Dim>>          loose_;
 	MassMatrix<Dim>                            mass_;
 	NodalMass<Dim>                             nodal_;    // the same, for products and conjugate gradients
-	std::unique_ptr<MassMatrix<Dim>>           extent_;   // of points in loose cells; null: there are none
+	std::unique_ptr<MassMatrix<Dim>>           extent_;   // extent of points in loose cells; null: there are none
 	bool                                       iterates_; // its condition number is bounded, and conjugate gradients have got there
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
@@ -94,7 +94,7 @@ private:
 	// At the start, without what contact does to the latter.
 	Eigen::VectorXd velocity_, acceleration_;
 	Eigen::VectorXd expected_;    // acceleration, with contact
-	Pushed          pushed_;      // where it was last asked for
+	Pushed          pushed_;      // forces at the displacements they were last asked for
 	Eigen::VectorXd blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 

@@ -12,7 +12,7 @@ template <int Dim> struct LooseCell {
 	std::array<int, corners> node {};
 	double                   mass   = 0;
 	int                      points = 0;
-	int                      cell   = -1; ///< of the basis
+	int                      cell   = -1; ///< number in the basis
 };
 
 /// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse

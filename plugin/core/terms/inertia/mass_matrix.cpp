@@ -137,7 +137,7 @@ template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, i
 	forEntries([&](int a, int b, int, double m) {
 		masters.eachPair(a, b, [&](int p, int q, double part) {
 			if (number[p] < 0 || number[q] < 0 || (a == b && p < q)) return;
-			const double both = a != b && p == q ? 2 : 1; // what is on both sides of the diagonal
+			const double both = a != b && p == q ? 2 : 1; // sum of both sides of the diagonal
 			columns[std::min(number[p], number[q])].emplace_back(std::max(number[p], number[q]), both * part * m);
 		});
 	});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How points move, and what the schemes in time have in common: masses, momenta, and blows of constrained nodes.
+// Motion of points, and the common part of the schemes in time: masses, momenta, and blows of constrained nodes.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
 #include "core/terms/contact/contact.hpp"
@@ -14,7 +14,7 @@ template <int Dim> struct BodyContacts;
 /// Constrained nodes that move by a history.
 template <int Dim> struct MovingBase {
 	ConstrainedBox<Dim> box;
-	Vec<Dim>            velocity;     ///< as the step begins [m/s]
+	Vec<Dim>            velocity;     ///< velocity as the step begins [m/s]
 	Vec<Dim>            acceleration; ///< mean of the step [m/s2]
 };
 
@@ -22,24 +22,24 @@ template <int Dim> struct MovingBase {
 template <int Dim> struct Motion {
 	TimeScheme                scheme;
 	double                    ghostMass = 1e-3;     ///< gamma_M over the density
-	double                    duration  = 0;        ///< of the step, > 0 [s]
+	double                    duration  = 0;        ///< duration of the step, > 0 [s]
 	double                    tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
-	std::vector<double>       mass {};              ///< of each point [kg]
+	std::vector<double>       mass {};              ///< mass of each point [kg]
 	std::vector<Vec<Dim>>     velocity {};          ///< [m/s]
 	std::vector<Vec<Dim>>     acceleration {};      ///< [m/s2], a result; all zero: the motion begins
-	double                    ghostWork   = 0;      ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	double                    impactWork  = 0;      ///< that constrained nodes have taken in it by their blow, beyond what they have worked with it [J]
-	int                       loosePoints = 0;      ///< in cells whose points do not tell the velocities of their nodes, as that step began
-	double                    gridWork    = 0; ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
-	double                    exactness   = 1e-13;        ///< of velocities and accelerations of the nodes, of the momenta of those of the points
-	Eigen::VectorXd           growth {};                  ///< of velocities of the nodes in the last step that was accepted [m/s]
+	double                    ghostWork   = 0;      ///< work that ghost stabilisation has taken in the last step that was accepted [J]
+	double                    impactWork  = 0; ///< work that constrained nodes have taken in it by their blow, beyond what they have worked with it [J]
+	int                       loosePoints = 0; ///< in cells whose points do not tell the velocities of their nodes, as that step began
+	double                    gridWork  = 0; ///< work of the forces that are out of balance with the accelerations of the points as the last step began [J]
+	double                    exactness = 1e-13;          ///< tolerance of velocities and accelerations of the nodes, over the momenta of the points
+	Eigen::VectorXd           growth {};                  ///< growth of velocities of the nodes in the last step that was accepted [m/s]
 	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
 	const BodyContacts<Dim>*  bodies           = nullptr; ///< contacts of bodies of points with each other, the same
-	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
+	LinearSolver              solvers[Dim + 1] = {};      ///< solvers by axis, and of all nodes; keep their symbolic analyses
 
-	std::vector<char>               isElastic {}; ///< of each material: nothing flows; empty: of none
+	std::vector<char>               isElastic {}; ///< flag of each material: nothing flows; empty: of none
 	std::vector<DampingOfStep<Dim>> damping {};   ///< in each step
-	std::vector<MovingBase<Dim>>    bases {};     ///< of nodes in several boxes the last one counts
+	std::vector<MovingBase<Dim>>    bases {};     ///< bases, of which the last one counts for nodes in several boxes
 
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };

@@ -39,7 +39,7 @@ public:
 		Eigen::VectorXd&       x; ///< comes with the values of the constrained degrees of freedom
 	};
 	struct Effort {
-		double tolerance = 1e-13; ///< of the right side, about; momentum is as exact
+		double tolerance = 1e-13; ///< part of the right side, about; momentum is as exact
 		int    atMost    = mostIterations;
 	};
 
@@ -51,12 +51,12 @@ public:
 	double diagonal(int node) const { return isLumped() ? lumped_[node] : rows_.diagonal(node); }
 
 	bool isLumped() const { return rows_.value.empty(); }
-	int  iterations() const { return iterations_; } ///< of all solves
+	int  iterations() const { return iterations_; } ///< iterations of all solves
 
 private:
 	struct Start {
 		Eigen::VectorXd rest;
-		double          size; ///< of the right side
+		double          size; ///< size of the right side
 	};
 
 	double          sizeOf(const Eigen::VectorXd& momenta) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How displacements, velocities and accelerations of a time step hang together.
+// Relations of displacements, velocities and accelerations of a time step.
 #pragma once
 
 namespace gimpm {

@@ -10,7 +10,7 @@ namespace gimpm {
 template <int Dim> struct BatchResponse {
 	using OfLaw = LanesOfLaws;
 
-	Principal<Dim, Lanes>  trial; ///< of b - 1
+	Principal<Dim, Lanes>  trial; ///< principal values and axes of b - 1
 	PrincipalValues<Lanes> strain;
 	OfLaw                  law;          ///< in each lane that of the law of the point, with that of water which cannot leave its pores
 	Lanes                  water { 0. }; ///< part of the principal stresses that is the water's

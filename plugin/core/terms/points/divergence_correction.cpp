@@ -49,7 +49,7 @@ template <int Dim> DivergenceCorrection<Dim> evenIn(const CellCorners<Dim>& corn
 {
 	DivergenceCorrection<Dim> even;
 	for (int b = 0; b < Dim; ++b) {
-		double gradient = 0; // of the dilation along b
+		double gradient = 0; // gradient of the dilation along b
 		for (int a = 0; a < Dim; ++a)
 			if (a != b) gradient += corners.mixed(a, a, b, Vec<Dim>::Constant(0.5) + part.away / 2);
 		even.shift[b]  = -gradient * part.square(b);
@@ -70,7 +70,7 @@ DivergenceCorrection<2> evenInRing(const CellCorners<2>& corners, const PartInCe
 	even.shift[1]    = -along * part.square(1);
 	even.growth[1]   = -along * part.away[1];
 	const double low = (u[0][0] + u[2][0]) / 2, high = (u[1][0] + u[3][0]) / 2, alpha = low - (high - low) * inner;
-	const double across = corners.mixed(1, 1, 0, Vec<2>::Zero()), mean = 1 / (12 * middle); // of x, by volume
+	const double across = corners.mixed(1, 1, 0, Vec<2>::Zero()), mean = 1 / (12 * middle); // mean of x, by volume
 	const double square = part.square(0), cube = x * (x * x + part.half[0] * part.half[0]) / 3 + 1. / 24;
 	even.shift[0]  = -(across * ((middle - mean) * square + cube - mean * middle * (x + 0.5)) - alpha * square / middle) / r;
 	even.hoop      = even.shift[0] / r;

@@ -15,9 +15,9 @@ namespace gimpm {
 /// Added to what the functions of the grid do to a point in a step.
 template <int Dim> struct DivergenceCorrection {
 	Vec<Dim> shift  = Vec<Dim>::Zero(); ///< displacement [m]
-	Vec<Dim> growth = Vec<Dim>::Zero(); ///< of lengths along the axes
+	Vec<Dim> growth = Vec<Dim>::Zero(); ///< growth of lengths along the axes
 	double   hoop   = 0;                ///< and around the axis of a body of revolution
-	double   ratio  = 1;                ///< of the volume after the step to that before it, by F-bar
+	double   ratio  = 1;                ///< ratio of the volume after the step to that before it, by F-bar
 };
 
 /// Divergence correction of each point in the order of the cloud, for displacements d of all nodes.

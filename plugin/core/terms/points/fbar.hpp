@@ -46,7 +46,7 @@ template <int Dim, int Axes = Dim> struct FBarChunk : Chunk<Dim, Axes> {
 
 	/// Gradients of the basis functions at the centres, node by node; turn() makes g0 of them.
 	Lanes centre[capacity][Axes][width];
-	Lanes centreGradient[batches][Dim][Axes];   ///< of the displacements
+	Lanes centreGradient[batches][Dim][Axes];   ///< gradients of the displacements
 	Lanes meanStress[batches];                  ///< times volume: its force on node a is along g0_a
 	Lanes bulk[batches];                        ///< its derivative, times volume
 	Lanes meanOfStrain[batches][Dim][Axes];     ///< and by the displacements of node b: d_b . mean . grad_b
@@ -104,7 +104,7 @@ GIMPM_INLINE void prepare(
 /// The increment of a batch, and the one that its laws see.
 template <int Dim, int Axes> struct FBarIncrement {
 	using M                   = MatrixOf<Dim, Lanes>;
-	static constexpr int axes = Axes; ///< that are scaled
+	static constexpr int axes = Axes; ///< number of axes that are scaled
 
 	Increment<Dim, Axes> own, centre;
 	M                    F, F0;
@@ -134,7 +134,7 @@ private:
 template <int Dim, int Axes> struct VolumetricSplit {
 	static constexpr int   n = FBarIncrement<Dim, Axes>::axes;
 	ResponseOf<Lanes>      deviator;         ///< t - mean, and its tangent to a strain without dilation
-	Lanes                  mean { 0. };      ///< of the stresses
+	Lanes                  mean { 0. };      ///< mean of the stresses
 	Lanes                  bulk { 0. };      ///< its derivative by the dilation, which is the sum of the strains
 	PrincipalValues<Lanes> meanOfStrain;     ///< its derivative by a strain without dilation
 	PrincipalValues<Lanes> stressOfDilation; ///< the derivative of the deviator by the dilation

@@ -16,7 +16,7 @@ template <int Dim> struct StepPoints {
 	ParameterColumns             parameters;
 	bool                         isSymmetric   = true;  ///< the tangents of their laws
 	bool                         hasTensorLaws = false; ///< some of them
-	double                       duration      = 0;     ///< of the step, for laws that depend on it
+	double                       duration      = 0;     ///< duration of the step, for laws that depend on it
 	std::vector<PointBasis<Dim>> centres; ///< only with F-bar (core/terms/points/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 	/// Mean Kirchhoff stress of water that cannot leave, at no elastic strain [Pa], zero where it can; empty: it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the blocks of a patch are in the matrix.
+// Positions of the blocks of a patch in the matrix.
 #pragma once
 #include "core/terms/points/point_kernel.hpp"
 

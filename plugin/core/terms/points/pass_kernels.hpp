@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pass does with the points of a patch.
+// Kernels of a pass over the points of a patch.
 #pragma once
 #include "core/terms/points/batch_response.hpp"
 #include "core/terms/points/fbar.hpp"
@@ -111,7 +111,7 @@ GIMPM_INLINE void keepModuli(
 
 /// Flux and moduli of one batch of a chunk. Returns a point that fails, or noFailure.
 ///
-/// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current
+/// The flux for principal axes q_k and Kirchhoff stresses t_k, with w_k = F^-1 q_k, is V_0 sum_k t_k q_k w_k: current
 /// volume times Cauchy stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at
 /// the start of the step.
 template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, Chunk<Dim, Axes>& chunk, int b)

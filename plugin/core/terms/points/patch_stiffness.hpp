@@ -14,9 +14,9 @@ template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
 	static constexpr int Dim = ChunkOfPoints::dim, Axes = ChunkOfPoints::axes;
 	using Pairs                     = PairModuli<Dim>;
 	static constexpr int pairs      = Symmetric ? Pairs::upper : Dim * Dim;
-	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< of a row, in Lanes
+	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< width of a row, in Lanes
 	static constexpr int rowsMost   = ChunkOfPoints::hasCentres ? 2 * Axes - Dim + 2 : Axes;
-	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< whose sums fit into registers
+	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< number of rows whose sums fit into registers
 
 public:
 	/// Adds the products of the points [begin, end).
@@ -90,7 +90,7 @@ private:
 			auto&       flux = flux_[p - begin];
 			for (int v = 0; v < width; ++v) {
 				const Lanes growth
-				        = isRing && k == 0 ? g0[k][v] + g0[Axes - 1][v] : g0[k][v]; // of the volume, by the displacements of the nodes
+				        = isRing && k == 0 ? g0[k][v] + g0[Axes - 1][v] : g0[k][v]; // growth of the volume, by the displacements of the nodes
 				Lanes dilation = bulk * growth;
 				for (int j = 0; j < directions(i); ++j)
 					flux[j][v] += of(chunk.stressOfDilation[batch][i][j]) * growth;

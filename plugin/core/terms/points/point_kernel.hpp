@@ -109,11 +109,11 @@ template <int Dim, int Axes = Dim> struct Chunk {
 	int first = 0, count = 0;
 	/// Gradients of the basis functions of a point, node by node.
 	Lanes                 basis[capacity][Axes][width];
-	Lanes                 gradient[batches][Dim][Axes]; ///< of the displacements, a point in each lane
+	Lanes                 gradient[batches][Dim][Axes]; ///< gradients of the displacements, a point in each lane
 	Lanes                 flux[batches][Dim][Axes];     ///< the force on node a is flux . grad_a
 	PairModuli<Dim, Axes> moduli;
 
-	Chunk() // what lies beyond the last node or point is computed with, and not used
+	Chunk() // values beyond the last node or point are computed with, and not used
 	{
 		for (auto& point : basis)
 			for (auto& axis : point)
@@ -174,7 +174,7 @@ GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const StepPoints<Dim>&, 
 /// Points side by side. Lanes beyond the last point of a chunk repeat it.
 struct Batch {
 	int point[Lanes::count];
-	int count; ///< of points that are no repetition
+	int count; ///< number of points that are no repetition
 
 	GIMPM_INLINE Batch(int first, int last) : count(std::min(Lanes::count, last - first))
 	{

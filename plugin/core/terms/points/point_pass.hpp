@@ -17,7 +17,7 @@ template <int Dim> struct Pass {
 	const Eigen::VectorXd&       d;
 	const AssembledTerms<Dim>&   sum;
 	const Colours<Dim>&          colours     = basis.colours; ///< or what one process does of them
-	const double                 duration    = 0;             ///< of the step until now
+	const double                 duration    = 0;             ///< duration of the step until now
 	const bool                   isBeginning = false;         ///< none of the step has gone by
 	const bool                   isSymmetric = points.isSymmetric;
 };

@@ -9,11 +9,11 @@ namespace gimpm {
 /// State of one point for displacements d.
 template <int Dim> struct PointUpdate {
 	Vec<Dim>       displacement;
-	Mat<Dim>       gradient;                       ///< of the increment, with respect to the configuration at the start of the step
+	Mat<Dim>       gradient;                       ///< gradient of the increment, with respect to the configuration at the start of the step
 	SymTensor<Dim> elasticStrain, kirchhoffStress; ///< the effective one
 	const Law&     law;
 	const double*  internals; ///< in the order of the law
-	double         hoop  = 0; ///< of the increment, around the axis of a body of revolution
+	double         hoop  = 0; ///< hoop strain of the increment, around the axis of a body of revolution
 	double         water = 0; ///< mean Kirchhoff stress of water that cannot leave its pores [Pa]
 };
 

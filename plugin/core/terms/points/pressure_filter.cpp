@@ -33,7 +33,7 @@ public:
 	{
 		double upper[Dim];
 		for (int a = 0; a < Dim; ++a) {
-			const auto& gradient = basis_.axes[i][a].gradient; // of the outer functions, in proportion to the lengths
+			const auto& gradient = basis_.axes[i][a].gradient; // gradients of the outer functions, in proportion to the lengths
 			upper[a]             = patch.span >> a & 1 ? gradient[2] / (gradient[2] - gradient[0]) : 0;
 		}
 		Part part { patch.reached, {}, volume };
@@ -51,7 +51,7 @@ public:
 	/// rows, which makes the sum over all cells exact.
 	Values projected(const Values& ofPoints) const
 	{
-		constexpr double tolerance = 1e-10; // of the sums of cells
+		constexpr double tolerance = 1e-10; // tolerance of the sums of cells
 		constexpr int    most      = 50;
 		const Values     inverse   = sums(Values::Ones(ofPoints.size())).unaryExpr([](double sum) { return sum > 0 ? 1 / sum : 0; });
 		Values           r = sums(ofPoints), x = inverse.cwiseProduct(r);

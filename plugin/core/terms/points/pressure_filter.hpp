@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pressures of points in one cell, which F-bar leaves apart for good.
 //
-// With F-bar (core/terms/points/fbar.hpp) the mean stresses pi_p of points act on the nodes by one number a cell c,
+// Mean stresses pi_p of points act, with F-bar (core/terms/points/fbar.hpp), on the nodes by one number a cell c,
 //
 //   P_c = sum over points of s_pc V_p pi_p,    with V_p the initial volume and s_pc the part of the domain in the cell,
 //
