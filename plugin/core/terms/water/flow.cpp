@@ -164,7 +164,7 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 template <int Dim> void Flow<Dim>::findNear(const StepContext<Dim>& step)
 {
 	const auto& code = Window<Dim>::get().code;
-	double      more = 0; // of the windows that are whole than of others
+	double      more = 0; // excess of whole windows over others
 	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
 		cell.forPairs([&](int m, int n) { near_.add(cell.node[m], cell.node[n], code[m][n]); });
 		more += cell.isWhole() ? 1 : -1;

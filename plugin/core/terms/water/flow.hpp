@@ -104,18 +104,18 @@ private:
 	std::vector<GhostFace<Dim>>  faces_;
 	NearNodes<Dim>               near_;
 	bool                         isExact_;
-	std::vector<Pores>           ownPores_; ///< of each point of the cloud, where some have their own; else empty
-	std::vector<PorePoint>       points_;   ///< of the cloud
+	std::vector<Pores>           ownPores_; ///< pores of each point of the cloud, where some have their own; else empty
+	std::vector<PorePoint>       points_;   ///< points of the cloud
 	std::vector<double>          cellConductivity_;
 	std::vector<double>          saturationBefore_; ///< of each point at the nodes of its patch, where pores need not be full
 	std::vector<double>          correction_;       ///< what a point has more than its nodes say, over the initial volume
 	std::vector<Cell>            cells_;
 	std::vector<Outlet>          outlets_;
-	std::vector<Attachment<Dim>> vertices_; ///< of the drains, one after the other
+	std::vector<Attachment<Dim>> vertices_; ///< vertices of the drains, one after the other
 	std::string                  obstacle_;
 
 	mutable std::unique_ptr<FlowBlocks<Dim>> blocks_;
-	mutable const double*                    blockValues_ = nullptr; ///< of the matrix that they are in
+	mutable const double*                    blockValues_ = nullptr; ///< values of the matrix that they are in
 };
 
 } // namespace gimpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where water leaves a body.
+// Drains: surfaces where water leaves a body.
 #include "core/terms/attach_surface.hpp"
 #include "core/terms/water/flow.hpp"
 #include <algorithm>

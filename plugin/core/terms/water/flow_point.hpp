@@ -60,11 +60,11 @@ template <int Dim> struct PointFunctions {
 struct PorePoint {
 	double       volume;   ///< [m3]
 	double       ratio;    ///< over the initial volume [-]
-	double       content;  ///< of water, over the initial volume [-]
+	double       content;  ///< content of water, over the initial volume [-]
 	double       pressure; ///< [Pa]
 	const Pores* pores;
 
-	double coupling() const { return pores->areRigid ? 0 : 1; } ///< of strain and pressure
+	double coupling() const { return pores->areRigid ? 0 : 1; } ///< coupling of strain and pressure
 };
 
 /// At an iterate: F is that of the step.
@@ -72,13 +72,13 @@ template <int Dim> struct FlowPoint {
 	double              pressure = 0, J = 1, around = 1;     ///< around: stretch along the circle around an axis of symmetry
 	Vec<Dim>            pressureGradient = Vec<Dim>::Zero(); ///< in the present configuration
 	Mat<Dim>            F                = Mat<Dim>::Identity(), inverse;
-	double              density = 1, content = 0; ///< of the water over that without pressure, and how much of it has been stored
+	double              density = 1, content = 0; ///< density of the water over that without pressure, and the amount of it that has been stored
 	Pores::Conductivity kappa {};
 
 	template <class Displacements, class Pressures>
 	FlowPoint(const PorePoint& point, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const Displacements& d, const Pressures& P, double modulus)
 	{
-		double   grown[Dim][Dim] = {}; // which stays in registers
+		double   grown[Dim][Dim] = {}; // sum of gradients, which stays in registers
 		Vec<Dim> first           = Vec<Dim>::Zero();
 		for (int n = 0; n < f.count; ++n) {
 			const int a = patch.node[n];

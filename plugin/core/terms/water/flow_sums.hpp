@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What water in the pores adds to forces and matrix, collected from the points of a few cells before it goes to nodes.
+// Forces and matrix blocks of water in the pores, collected from the points of a few cells before it goes to nodes.
 #pragma once
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/near_nodes.hpp"
@@ -166,7 +166,7 @@ public:
 	}
 
 private:
-	static constexpr int field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
+	static constexpr int field = 1, turns = Dim * (Dim - 1) / 2; // field of the pressure; pairs of axes
 	struct Functions {
 		Row value, hoop, along, gradient[Dim], dilation[Dim];
 	};
@@ -210,9 +210,9 @@ private:
 			to[b] += factor * row[b];
 	}
 
-	/// Adds the symmetric part, with w = grad p and g the present gradients: equation (6.5) of docs/explanation/water.md.
-	/// Row by row, so that columns are side by side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its
-	/// opposite for i > k.
+	/// Adds the symmetric part, with w = grad p and g the present gradients: equation (6.5) of
+	/// docs/explanation/water.md. Row by row, so that columns are side by side. Displacements by displacements:
+	/// pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, coupled = point.coupling() * V,
@@ -363,11 +363,11 @@ private:
 	const Vec<Dim>         weight_; // of water on the soil, where it is not that of still water [N/m3]
 	std::array<int, N>     node_;
 	Row                    force_[Dim + 1], absoluteContributions_[Dim + 1];  // the last one: of the pressure
-	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N]; // by rows
-	Row                    pu_[Dim][N];                                       // where the matrix is not symmetric
+	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N]; // blocks by rows
+	Row                    pu_[Dim][N];                                       // block where the matrix is not symmetric
 	Row                    grown_[Dim][N];                                    // content by displacements, where water has its weight
-	Wetness                wet_;                                              // of the point at hand, where pores need not be full
-	Functions              at_;                                               // of the point at hand, zero at other nodes
+	Wetness                wet_;                                              // wetness of the point at hand, where pores need not be full
+	Functions              at_;                                               // functions of the point at hand, zero at other nodes
 	int                    own_[N], count_ = 0;                               // its nodes
 };
 

@@ -21,14 +21,14 @@ namespace gimpm {
 template <int Dim> struct Drain {
 	enum class Kind {
 		pressure, ///< there is a given pressure
-		seepage,  ///< that pressure, but water cannot enter
+		seepage,  ///< same pressure, but water cannot enter
 		flux,     ///< so much leaves, whatever the pressure
 		rain      ///< so much enters, as long as the soil takes it in, or leaves, as long as it is not too dry
 	};
 	/// Water stands outside up to a height, other than that of the still water over which pressures are in excess.
 	/// Above it water can only leave, into the air.
 	struct Level {
-		double height, still, weight; ///< of water, by volume; still = NaN: pressures are whole ones
+		double height, still, weight; ///< heights outside and of still water, NaN: pressures are whole ones; weight of water by volume
 		int    axis;
 		double up; ///< 1 or -1: heights are up * x[axis]
 
@@ -66,10 +66,10 @@ template <int Dim> struct WholeWater {
 };
 
 template <int Dim> struct SoilWater {
-	std::vector<Pores>      pores;                                                   ///< by material
-	std::vector<Pores>      ownPores {};                                             ///< of each point, where some have their own; else empty
+	std::vector<Pores>      pores;                                                   ///< pores by material
+	std::vector<Pores>      ownPores {};                                             ///< pores of each point, where some have their own; else empty
 	double                  modulus       = std::numeric_limits<double>::infinity(); ///< bulk modulus of the water [Pa]
-	double                  duration      = 0;                                       ///< of the step [s]
+	double                  duration      = 0;                                       ///< duration of the step [s]
 	double                  stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
 	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
 	std::vector<Drain<Dim>> drains {};
@@ -80,17 +80,17 @@ template <int Dim> struct SoilWater {
 	/// of mean squares over the volume. Both need the growth in the last step.
 	double displacementTolerance = std::numeric_limits<double>::infinity(), pressureTolerance = displacementTolerance;
 
-	std::vector<double>                        pressure {}; ///< of each point [Pa], as the last accepted step has left it
+	std::vector<double>                        pressure {}; ///< pressure at each point [Pa], as the last accepted step has left it
 	std::vector<Eigen::Matrix<double, Dim, 1>> flux {};     ///< volume by area and time [m/s]
 	std::map<std::uint64_t, double>            atNodes {};  ///< pressure by key of the node [Pa]
 	/// Growth of displacements and pressure in the last accepted step, by key of the node, and its duration [s]; 0:
 	/// there was none, or it is not kept.
 	std::map<std::uint64_t, Eigen::Matrix<double, Dim + 1, 1>> growth {};
 	double                                                     lastDuration = 0;
-	bool                                                       keepsGrowth  = true;  ///< which tells where the next step may begin, too
+	bool                                                       keepsGrowth  = true;  ///< growth tells where the next step may begin, too
 	double                                                     stored       = 0;     ///< volume taken up by the body in the last accepted step [m3]
 	bool                                                       wantsWork    = false; ///< in time steps
-	double                                                     work         = 0;     ///< of the excess pressures on the soil in the last accepted step [J]
+	double                                                     work         = 0; ///< work of the excess pressures on the soil in the last accepted step [J]
 };
 
 } // namespace gimpm

@@ -11,11 +11,11 @@ namespace {
 /// A point with displacements d of its nodes.
 template <int Dim> struct MovedPoint {
 	const Patch<Dim>& patch;
-	int               count = 1; // of nodes
+	int               count = 1; // number of nodes
 	double            value[windowNodes<Dim>];
-	Vec<Dim>          shapeGradient[windowNodes<Dim>]; // where it is now, in the section of a ring
+	Vec<Dim>          shapeGradient[windowNodes<Dim>]; // gradient where it is now, in the section of a ring
 	double            hoop[windowNodes<Dim>];          // dilation of the ring by its radial displacement
-	int               code[windowNodes<Dim>];          // of the position in the patch, as offset
+	int               code[windowNodes<Dim>];          // code of the position in the patch, as offset
 	Vec<Dim>          displacement = Vec<Dim>::Zero();
 	double            J            = 1; // current volume over that at the start of the step
 
@@ -85,7 +85,7 @@ template <int Dim> struct WetPoint {
 	const MovedPoint<Dim>&     at;
 	const PressureAround<Dim>& p;
 	double                     weighs, presses;  // volumes [m3]
-	const double*              beyond = nullptr; // what the pressure has gained from the node to its image that is near the point [Pa]; null: nothing
+	const double*              beyond = nullptr; // gain of the pressure from the node to its image that is near the point [Pa]; null: nothing
 
 	WetPoint(const MovedPoint<Dim>& moved, const PressureAround<Dim>& around, WaterDomain domain, double volume0, double volume)
 	        : at(moved)

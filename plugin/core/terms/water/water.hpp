@@ -15,20 +15,19 @@ template <int Dim> struct Water {
 	using Pressure             = std::shared_ptr<const WaterPressure<Dim>>;
 	WaterDomain         domain = WaterDomain::everywhere;
 	Pressure            pressure {}, before {};
-	double              factor = 1, factorBefore = 1; ///< of the pressures
-	bool                wantsWork = false;            ///< which takes two passes over the points
-	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
+	double              factor = 1, factorBefore = 1; ///< factors of the pressures
+	bool                wantsWork = false;            ///< work takes two passes over the points
+	std::vector<double> shares {};                    ///< part of the forces that acts on its points, by material; empty: all
 
 	/// Beside walls where the pressure jumps: number of the side that a position is on, from 1, 0 elsewhere; and by
 	/// side the pressure as it goes on from there. Null: as elsewhere.
 	std::function<int(const Vec<Dim>&)> sideOf {};
 	std::vector<Pressure>               beside {}, besideBefore {};
 
-	// of the last step that was accepted
-	std::vector<double> porePressure {}; ///< by point of the cloud, at its end [Pa]
-	std::vector<std::pair<Key, Vec<Dim>>>
-	        onWalls {}; ///< of nodes that are constrained, what the water does to what holds them [N]; zero where they are free
-	double  work = 0;   ///< with the mean of the forces at its two ends [J], where it is wanted
+	// results of the last step that was accepted
+	std::vector<double>                   porePressure {}; ///< pressure at each point of the cloud, at its end [Pa]
+	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< force of the water on what holds constrained nodes [N]; zero where they are free
+	double                                work = 0;        ///< work with the mean of the forces at its two ends [J], where it is wanted
 };
 
 /// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores,
@@ -37,9 +36,9 @@ template <int Dim> struct Water {
 ///
 ///     everywhere: V0 grad p S_a     pores: -V p grad S_a     outside: V (grad p S_a + p grad S_a)
 ///
-/// with the current volume V and its derivative, but for the first. There, water that the pores lose takes its weight
-/// along, which the mass of a point, constant, does not know: with the initial volume V0, (density - that of water) V0
-/// g is exactly the weight of submerged soil, however it deforms. The second one has no symmetric stiffness.
+/// All but the first take the current volume V and its derivative. In the first, water that the pores lose takes its
+/// weight along, which the mass of a point, constant, does not know: with the initial volume V0, (density - that of
+/// water) V0 g is exactly the weight of submerged soil, however it deforms. The second one has no symmetric stiffness.
 template <int Dim> class WaterForce : public Term<Dim> {
 public:
 	/// Results are written to the water in commit().
@@ -56,10 +55,10 @@ public:
 	void   commit(const Eigen::VectorXd& d) override;
 
 private:
-	struct Start { // of a point
+	struct Start { // state of a point
 		Vec<Dim> position, halfSize;
 		double   volume0, volume;
-		int      side; ///< of a wall
+		int      side; ///< side of a wall
 	};
 	enum class When { before, now };
 	const WaterPressure<Dim>&                      pressureFor(const Start&, When) const;
