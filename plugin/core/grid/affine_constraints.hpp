@@ -10,7 +10,7 @@ namespace gimpm {
 /// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells without parting lines.
 struct AffineConstraints {
 	std::vector<int>    node;          ///< tied nodes, rising
-	std::vector<int>    start = { 0 }; ///< begin of the masters of each tied node
+	std::vector<int>    start = { 0 }; ///< start of the masters of each tied node
 	std::vector<int>    master;        ///< nodes
 	std::vector<double> weight;        ///< > 0, in sum one
 

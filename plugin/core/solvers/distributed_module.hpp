@@ -13,7 +13,7 @@ struct DistributedRows {
 	int           dim;    ///< unknowns a node, of all fields
 	int           rows;   ///< rows of this process: dim times its nodes
 	int           all;    ///< rows of all processes
-	const int*    start;  ///< begin of each row, and the end of the last one
+	const int*    start;  ///< start of each row, and the end of the last one
 	const int*    column; ///< rising, among all
 	const double* value;
 	bool          isSymmetric;

@@ -48,7 +48,7 @@ private:
 	bool                    isShared_;
 	void*                   solver_;        ///< solver of the library, where K is not symmetric or of several fields, and for factors
 	Unknowns                unknowns_;      ///< unknowns of its multigrid; none: there is none
-	std::vector<int>        start_;         ///< begin of the nodes of each process, for multigrid
+	std::vector<int>        start_;         ///< start of the nodes of each process, for multigrid
 	double                  perDecade_ = 0; ///< iterations of the first solve with multigrid
 	std::unique_ptr<Factor> factor_;        ///< factor of the last solve
 	NodeSolver              overNodes_;     ///< solver where K is symmetric

@@ -11,7 +11,7 @@ namespace gimpm {
 struct NodePairs {
 	std::vector<double> value;
 	std::vector<int>    first, neighbour; ///< neighbours of each node, itself first and then rising
-	std::vector<int>    upper;            ///< begin of the neighbours after the node
+	std::vector<int>    upper;            ///< start of the neighbours after the node
 
 	int    nodes() const { return int(first.size()) - 1; }
 	double diagonal(int node) const { return value[first[node]]; }

@@ -12,7 +12,7 @@ struct MultigridMatrix {
 	int           rows;     ///< dim times the nodes; where processes share the matrix, those of this one
 	int           all;      ///< rows of all processes
 	bool          isShared; ///< all processes call each function; who cannot go on says why and ends all of them
-	const int*    start;    ///< begin of each row, and the end of the last one
+	const int*    start;    ///< start of each row, and the end of the last one
 	const int*    column;   ///< rising, among all; rows of a node have the same ones, by whole blocks
 	const double* value;
 	/// Dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress.

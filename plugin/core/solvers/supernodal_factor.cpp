@@ -126,7 +126,7 @@ cholmod_factor* expanded(const cholmod_factor& ofNodes, const std::vector<int>& 
 	const auto       integers = [](const void* p) { return static_cast<const int*>(p); };
 	const int *      permuted = integers(ofNodes.Perm), *columns = integers(ofNodes.super), *places = integers(ofNodes.pi), *nodes = integers(ofNodes.s);
 	const int        count = int(widths.size());
-	std::vector<int> source(count, 0), first(count + 1, 0); // begin of each node: in the order that was given, and in that of the factor
+	std::vector<int> source(count, 0), first(count + 1, 0); // start of each node: in the order that was given, and in that of the factor
 	std::partial_sum(widths.begin(), widths.end() - 1, source.begin() + 1);
 	for (int a = 0; a < count; ++a)
 		first[a + 1] = first[a] + widths[permuted[a]];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Begin of the soil on a side of a line.
+// Edge of the soil on a side of a line.
 #pragma once
 #include "core/grid/point_cloud.hpp"
 

@@ -82,7 +82,7 @@ public:
 
 private:
 	double*                     values_ = nullptr;
-	std::vector<std::ptrdiff_t> begin_;   // begin of each row
+	std::vector<std::ptrdiff_t> begin_;   // start of each row
 	std::vector<int>            offsets_; // from there
 };
 

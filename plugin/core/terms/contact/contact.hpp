@@ -114,7 +114,7 @@ private:
 	struct ContactPoint {
 		int                    body;
 		std::int64_t           number;
-		Vec<Dim>               soil;                               ///< begin of the soil, at the start of the step
+		Vec<Dim>               soil;                               ///< edge of the soil, at the start of the step
 		Vec<Dim>               carried;                            ///< displacement of it with the body by the end
 		Vec<Dim>               normal;                             ///< at the end
 		double                 away;                               ///< distance of the soil from the body, at the start [m]
