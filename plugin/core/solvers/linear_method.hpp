@@ -20,7 +20,7 @@ struct IterativeEffort {
 	int         iterations  = 0; ///< iterations of conjugate gradients or GMRES
 	int         hierarchies = 0; ///< hierarchies that multigrid has set up
 	int         fallbacks   = 0; ///< solves that they left to the direct solver
-	std::string reason {};       ///< reason of the last one, or why multigrid was not set up
+	std::string reason {};       ///< reason of the last fallback, or why multigrid was not set up
 };
 
 } // namespace gimpm

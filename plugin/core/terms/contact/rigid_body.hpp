@@ -57,7 +57,7 @@ template <int Dim> struct RigidBody {
 	RigidShape<Dim> shape;
 	std::string     name;                                                          ///< for messages
 	int             owner               = 0;                                       ///< owner that moves it, and takes its forces: a clump or itself
-	bool            isNew               = false;                                   ///< what it overlaps at the start is taken as fitting
+	bool            isNew               = false;                                   ///< overlaps at the start are taken as fitting
 	double          frictionCoefficient = 0;                                       ///< [-]
 	double          adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness           = 0;                                       ///< stiffness of the contact, over Young's modulus per cell [-]

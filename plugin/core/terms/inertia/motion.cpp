@@ -60,7 +60,7 @@ template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, c
 template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>& loose, const Motion<Dim>& motion, const StepContext<Dim>& step)
 {
 	constexpr double ofStiffness   = 1e-2;
-	const auto       squareOfSpeed = [&](int p) { // speed of waves; none where nothing tears
+	const auto       squareOfSpeed = [&](int p) { // squared speed of waves; none where nothing tears
                 const auto [volume, modulus] = step.stiffnessOf(p);
                 const bool isElastic         = !motion.isElastic.empty() && motion.isElastic[step.cloud.material[p]];
                 return VolumeAndModulus { volume, isElastic ? 0 : modulus * volume / motion.mass[p] };
