@@ -37,7 +37,7 @@ template <int Dim> struct TileOrder {
 		}
 		return cell;
 	}
-	static Key tile(Key position) { return position >> Dim * widthBits; } ///< number of the tile, with its colour, level and layer
+	static Key tile(Key position) { return position >> Dim * widthBits; } ///< tile with colour, level and layer
 
 private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }

@@ -15,7 +15,7 @@ struct NorSand::Trial {
 struct NorSand::Flow {
 	double                      volumetric, shear, image;
 	bool                        isFailed    = false;
-	Eigen::Matrix<double, 2, 2> derivatives = Eigen::Matrix2d::Identity(); ///< Jacobian of volumetric and shear by the trial
+	Eigen::Matrix<double, 2, 2> derivatives = Eigen::Matrix2d::Identity(); ///< first two by the trial
 };
 
 NorSand::NorSand(const Given& given) : given_(given), nonAssociated_((1 - given.curvature) / (1 - given.flowCurvature)) { }

@@ -8,7 +8,7 @@
 namespace gimpm {
 
 struct PetscLibrary {
-	std::string              file;                  ///< path, by default mpm_petsc.so beside the file that holds the core
+	std::string              file;                  ///< default: mpm_petsc.so beside the file that holds the core
 	const MultigridModule*   multigrid   = nullptr; ///< null until it is opened
 	const DistributedModule* distributed = nullptr;
 

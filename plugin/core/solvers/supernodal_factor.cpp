@@ -194,7 +194,7 @@ void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, b
 	// Its default is AMD, and METIS if that is not good; its first method is the given order.
 	common_.nmethods   = order.empty() ? 0 : 1;
 	common_.supernodal = last == 0 && isDefinite ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;
-	for (const bool postorder : { true, false }) { // last columns survive a postorder if all before them are connected
+	for (const bool postorder : { true, false }) { // last ones survive it if all before them are connected
 		common_.postorder = postorder;
 		factor_           = cholmod_analyze_p(&A, order.empty() ? nullptr : order.data(), nullptr, 0, &common_);
 		if (!factor_ || std::equal(order.end() - last, order.end(), ordering() + A.nrow - last)) return;

@@ -134,7 +134,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	const Stopwatch       watch(report.times.update);
 	const Eigen::VectorXd displacements = system.map.displacements(d);
 	addReactionsBeyondWalls(system, cloud, load, displacements, report);
-	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // reaction of the axis, which nobody has asked for
+	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, displacements, report);
 	keepBeforeWalls(updated, cloud, system, displacements);

@@ -59,7 +59,7 @@ public:
 	/// Strain of a cell of which one side is held and the other moves like the node that moves most.
 	double strainOf(const Eigen::VectorXd& d) const { return system_.map.of(0, d).template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
 
-	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< round-off of strains, a part of them
+	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< part of a strain
 
 private:
 	double of(int i, double strain) const

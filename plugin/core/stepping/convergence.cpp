@@ -27,7 +27,7 @@ double Convergence::forcing() const
 
 bool Convergence::isSlow() const
 {
-	constexpr double slow = 0.1, alike = 0.3, many = 3; // limits of the reduction, and of iterations to come: those of Newton's method are few
+	constexpr double slow = 0.1, alike = 0.3, many = 3; // limits for going on: Newton's iterations are few
 	const auto&      r = residuals_;
 	if (r.size() < 3) return false;
 	const double before = r[r.size() - 2] / r[r.size() - 3];

@@ -12,7 +12,7 @@ struct Stiffest {
 	double spacing      = 0; ///< size of the domains [cells]
 };
 template <int Dim> Stiffest stiffest(const PointCloud<Dim>&, const Model<Dim>&);
-template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>&, const Model<Dim>&); ///< values of the points of this process
+template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>&, const Model<Dim>&); ///< points of this process
 
 /// 2 / omega_max [s] of the body in its present state, by
 ///

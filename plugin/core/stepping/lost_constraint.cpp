@@ -75,7 +75,7 @@ private:
 	/// too.
 	void recordGap(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
-		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // size of the cells that the soil is in
+		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // cells that the soil is in
 		const double centre = distance(cloud.position[p], grid, h), half = cloud.halfSize[p][axis] / h;
 		const double moved = sign * (cloud.position[p] - cloud.position0[p])[axis] / h;
 		const Gap    gap { centre - half, centre - moved - cloud.halfSize0[p][axis] / h };

@@ -6,7 +6,7 @@
 namespace gimpm {
 
 struct NewtonResult {
-	Eigen::VectorXd growth;    ///< growth of the fields, block by block: displacements have Dim components a node [m]
+	Eigen::VectorXd growth;    ///< fields, block by block: displacements have Dim components a node [m]
 	bool            predicted; ///< it started from the prediction
 };
 

@@ -48,7 +48,7 @@ struct StepReport {
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {
-		Vec3        position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< position of the node [m]
+		Vec3        position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< node [m]
 		int         axis     = -1;                                                       ///< -1: of another field than the displacements
 		double      force    = 0;                                                        ///< [N]
 		std::string field {};                                                            ///< the name of another field

@@ -34,7 +34,7 @@ template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
 	for (auto& strain : cloud.elasticStrain)
 		strain.c *= by;
 	for (std::size_t k = 0; k < cloud.internals.size(); ++k)
-		if (internalVariables[int(k)].least <= 0) // variables that must not be zero are no strains, but ratios that stay
+		if (internalVariables[int(k)].least <= 0) // positive variables are no strains, but ratios that stay
 			for (double& value : cloud.internals[k])
 				value *= by;
 }

@@ -345,8 +345,8 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 	if (!structure_.beam || !system_) return;
 	const Beam& beam = *structure_.beam;
 	for (int position = 0; position < int(attached_.size()); ++position) {
-		if (position >= int(beam.positions.size()) && position < structure_.vertices()) continue; // vertices of bars
-		if (position >= structure_.vertices() + int(beam.positions.size())) break;                // vertices of bonds
+		if (position >= int(beam.positions.size()) && position < structure_.vertices()) continue; // bars
+		if (position >= structure_.vertices() + int(beam.positions.size())) break;                // bonds
 		for (int a = 0; a < Dim && system_->soilUnknown(position) >= 0; ++a)
 			if (beam.fixedHead[a] || beam.fixedFoot[a]) constrain(attached_[position]->node[0], Vec<Dim>::Unit(a), attached_[position]->inCell());
 	}

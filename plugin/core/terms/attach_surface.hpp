@@ -10,7 +10,7 @@ namespace gimpm {
 template <int Dim> struct AttachedPositions {
 	std::vector<Attachment<Dim>> positions;
 	std::string                  obstacle {};
-	int                          layer = 0; ///< layer of the body that they are on; layerOfPosition: each position has its own
+	int                          layer = 0; ///< body that they are on; layerOfPosition: each position has its own
 };
 
 /// A cell counts as populated by the least of a domain that reaches into it, so positions must be near a domain, too:

@@ -118,7 +118,7 @@ template <int Dim> struct StepContext {
 	const std::function<Eigen::VectorXd()>&
 	                  imbalance;  ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 	const OwnedNodes& ownedNodes; ///< the nodes around which this process knows all points; what is summed over points is completed by it
-	const Division&   division;   ///< division of the points among processes, of which this one has its own and copies
+	const Division&   division;   ///< points among processes, of which this one has its own and copies
 };
 
 /// Makes a term for a step.

@@ -22,7 +22,7 @@ template <int Dim> struct Wall {
 	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
 	double                penalty = 100;
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
-	std::vector<Vec<Dim>> tractions;                   ///< traction of each piece on the body [Pa]; zero where there is none
+	std::vector<Vec<Dim>> tractions;                   ///< pieces on the body [Pa]; zero where there is none
 	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
 };
 

@@ -46,7 +46,7 @@ template <int Dim> struct PairForce : PairAction<Dim> {
 
 	using Tangent = Eigen::Matrix<double, size, size>;
 
-	Tangent tangent = Tangent::Zero(); ///< derivative of the forces by the contact points [N/m], if it was asked for
+	Tangent tangent = Tangent::Zero(); ///< derivative of the forces by the contact points [N/m], if asked for
 };
 
 /// Force of a penalty on the gap, and of Coulomb's friction with a cap, by return mapping from a penalty on the slip.

@@ -41,7 +41,7 @@ template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, dou
 
 /// A point whose centre is in a body.
 template <int Dim> struct Inside {
-	Vec<Dim> centre, half, outward; ///< centre and half size of its domain; normal of the body's surface closest to its centre
+	Vec<Dim> centre, half, outward; ///< domain; normal of the body's surface closest to its centre
 	double   gap;                   ///< gap of the centre, < 0 [m]
 
 	/// True if it is in front of a contact point, or rather behind it, as in SoilNear.

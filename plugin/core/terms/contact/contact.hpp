@@ -51,7 +51,7 @@ template <int Dim> class Contact;
 template <int Dim> struct ContactSystem {
 	std::vector<RigidBody<Dim>>     bodies;
 	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
-	std::vector<ContactRecord<Dim>> records {}; ///< contact points of the last step that was accepted, sorted by body and number
+	std::vector<ContactRecord<Dim>> records {}; ///< last step that was accepted, sorted by body and number
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
 	double                          weight = 1; ///< weight of forces in the balance of a time step (core/terms/inertia/time_scheme.hpp)

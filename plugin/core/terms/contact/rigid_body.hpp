@@ -61,10 +61,10 @@ template <int Dim> struct RigidBody {
 	double          frictionCoefficient = 0;                                       ///< [-]
 	double          adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness           = 0;                                       ///< stiffness of the contact, over Young's modulus per cell [-]
-	Pose<Dim>       begin {}, end {};                                              ///< poses at both ends of the step
+	Pose<Dim>       begin {}, end {};                                              ///< both ends of the step
 	double          turn     = 0;  ///< rotation by which it turns from one load step to the next, also where its poses do not tell [rad]
 	int             soilSide = 0;  ///< side on which alone a two-sided surface has had soil in sight
-	double          slack    = 0;  ///< distance behind the surface up to which soil still counts as on that side [m]
+	double          slack    = 0;  ///< distance behind the surface up to which soil is still on that side [m]
 	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
 	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
 	/// Owners of those nodes, and the turn that they give the body about its axis in the step, for a capsule [rad].

@@ -39,7 +39,7 @@ template <int Dim> struct Motion {
 
 	std::vector<char>               isElastic {}; ///< flag of each material: nothing flows; empty: of none
 	std::vector<DampingOfStep<Dim>> damping {};   ///< in each step
-	std::vector<MovingBase<Dim>>    bases {};     ///< bases, of which the last one counts for nodes in several boxes
+	std::vector<MovingBase<Dim>>    bases {};     ///< last one counts for nodes in several boxes
 
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };

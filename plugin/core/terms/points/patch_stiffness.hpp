@@ -16,7 +16,7 @@ template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
 	static constexpr int pairs      = Symmetric ? Pairs::upper : Dim * Dim;
 	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< width of a row, in Lanes
 	static constexpr int rowsMost   = ChunkOfPoints::hasCentres ? 2 * Axes - Dim + 2 : Axes;
-	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< number of rows whose sums fit into registers
+	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< rows whose sums fit into registers
 
 public:
 	/// Adds the products of the points [begin, end).

@@ -17,7 +17,7 @@ template <int Dim> struct Water {
 	Pressure            pressure {}, before {};
 	double              factor = 1, factorBefore = 1; ///< factors of the pressures
 	bool                wantsWork = false;            ///< work takes two passes over the points
-	std::vector<double> shares {};                    ///< part of the forces that acts on its points, by material; empty: all
+	std::vector<double> shares {};                    ///< part of the force by material; empty: all
 
 	/// Beside walls where the pressure jumps: number of the side that a position is on, from 1, 0 elsewhere; and by
 	/// side the pressure as it goes on from there. Null: as elsewhere.
@@ -26,8 +26,8 @@ template <int Dim> struct Water {
 
 	// results of the last step that was accepted
 	std::vector<double>                   porePressure {}; ///< pressure at each point of the cloud, at its end [Pa]
-	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< force of the water on what holds constrained nodes [N]; zero where they are free
-	double                                work = 0;        ///< work with the mean of the forces at its two ends [J], where it is wanted
+	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< force on what constrains nodes [N]; zero where free
+	double                                work = 0;        ///< work by the mean of the forces at both ends [J]
 };
 
 /// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores,
