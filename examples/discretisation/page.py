@@ -12,7 +12,7 @@ import scenes
 import stresses
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('scripts', 'lib'), ('plugin', 'python', 'mpm'))]
+sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('scripts', 'lib'), ('plugin', 'python', 'mpm', 'analysis'))]
 import pages
 import studies
 from refinement import errorOf

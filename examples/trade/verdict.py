@@ -10,7 +10,7 @@ from pages import percent, span
 from panels import here, rows, said
 from plans import plans
 
-sys.path.append(os.path.join(here, '..', '..', 'plugin', 'python', 'mpm'))
+sys.path.append(os.path.join(here, '..', '..', 'plugin', 'python', 'mpm', 'analysis'))
 from refinement import errorOf
 
 words = {1: 'one', 2: 'two', 3: 'three', 4: 'four', 5: 'five'}

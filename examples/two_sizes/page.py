@@ -19,6 +19,7 @@ titles = dict(footing='footing', tightFooting='footing, small block', cut='cut',
 
 
 def rows(path):
+	if not os.path.exists(path): return []
 	with open(path, newline='') as file:
 		return [{name: pages.number(text) for name, text in row.items()} for row in csv.DictReader(file)]
 

@@ -34,6 +34,8 @@ topics = [
 
 
 def topicOf(path):
+	"""Topic of a source; a module of Python counts by its own name, not by that of its package."""
+	if path.startswith('/python/'): path = '/python/' + os.path.basename(path)
 	return next(title for title, words, _ in topics if any(word in path for word in words))
 
 

@@ -21,13 +21,12 @@ template <int Dim> PointStiffness stiffnessOf(const PointCloud<Dim>& cloud, cons
 }
 
 template <int Dim>
-std::vector<GhostFace<Dim>> stabilise(
-        const PointStiffness& moduli, const Model<Dim>& model, const Boundary<Dim>& walls, const CloudBasis<Dim>& basis, StepReport& report)
+std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
-	const auto      boundary = boundaryCells(basis.populatedLeaves(), walls, model.grid);
-	auto            faces    = ghostFaces<Dim>(basis.populatedLeaves(), boundary, walls, model.grid);
+	const auto      boundary = boundaryCells(basis.populatedLeaves(), model.boundary, model.grid);
+	auto            faces    = ghostFaces<Dim>(basis.populatedLeaves(), boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	weighGhostFaces(faces, basis, moduli, model.grid, model.ghost.factor, model.ghost.scaling);
@@ -74,7 +73,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		addPointForces(basis, pointForces(cloud, model, load), external);
 		constraints.template condense<Dim>(map, external);
 	}
-	faces = stabilise(stiffnessOf_, model, boundary, basis, report);
+	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
 	owned_ = std::make_unique<OwnedParts<Dim>>(*model.processes, basis, faces, *model.division);
 	gimpm::complete(owned_->knownNodes(), map, external);

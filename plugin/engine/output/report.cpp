@@ -96,7 +96,7 @@ namespace {
 		  "maxSplits).",
 		  nullptr },
 		{ "domainMismatch",
-		  "Mean of |covered part - 1| [-] over the cells within the soil: 0 where the domains of points tile. Beyond 0.05, as after long shear obliquely to the "
+		  "Mean difference of the covered part of a cell from 1 [-], over the cells within the soil: 0 where the domains of points tile. Beyond 0.05, as after long shear obliquely to the "
 		  "grid, soil is too weak there by up to that part: smaller cells, or maxSplits, help. Of the points of this process.",
 		  [](E e) { return py::object(e.grid->dim == 2 ? mismatchIn<2>(e) : mismatchIn<3>(e)); } },
 		{ "wallOverlap",

@@ -60,7 +60,7 @@ refused = [
         ('MpmDynamicEngine(time_tolerance=1)', 'AttributeError', ["did you mean 'timeTolerance'"]),
         ('MpmImplicitEngine(iterperiod=2)', 'AttributeError', ["did you mean 'iterPeriod'"]),
         ('MpmMohrCoulombMat(friction=.5)', 'AttributeError', ["'frictionAngle'"]),
-        ('MpmElasticMat(xyz=.5)', 'AttributeError', ["no attribute 'xyz'. Its settings: density, undrained, waterModulus, conductivity, porosity, conductivityLaw, conductivityIndex, relaxationTime, young, poisson."]),
+        ('MpmElasticMat(xyz=.5)', 'AttributeError', ["no attribute 'xyz'. Its settings: density, undrained, waterModulus, conductivity, porosity, conductivityLaw, conductivityIndex, retention, relaxationTime, young, poisson."]),
         # symbols and words of the field
         ('MpmElasticMat(E=1e6)', 'AttributeError', ["no attribute 'E'; did you mean 'young'?"]),
         ('MpmElasticMat(young=1e6).nu', 'AttributeError', ["did you mean 'poisson'?"]),
