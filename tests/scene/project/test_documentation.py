@@ -106,7 +106,7 @@ def test_the_course_is_numbered_through():
 
 
 explanation = root / 'plugin/docs/explanation'
-citation = re.compile(r'((?:de )?[A-Z]\w+(?: \w+)?(?: and [A-Z][\w-]+| et al\.)?)\)? ((?:1[789]|20)\d\d)')
+citation = re.compile(r'((?:de |van )?[A-Z]\w+(?: \w+)?(?: and [A-Z][\w-]+| et al\.)?)\)? ((?:1[789]|20)\d\d)')
 
 
 @pytest.mark.parametrize('chapter', [page for page in sorted(explanation.glob('*.md')) if page.stem not in ('nomenclature', 'references')], ids=lambda page: page.stem)
@@ -127,7 +127,7 @@ def test_every_source_is_listed_and_every_listed_source_is_cited():
 	text = ' '.join(re.sub(r'\s+(?://+ ?)?', ' ', path.read_text()) for path in sources)
 	missing = []
 	for key in entries:
-		name, year = re.match(r'((?:de )?[\w-]+)', key)[1], key[-4:]
+		name, year = re.match(r'((?:de |van )?[\w-]+)', key)[1], key[-4:]
 		if not re.search(rf'\b{name}\b[^|;]{{0,60}}\b{year}\b', text): missing.append(key)
 	assert not missing
 
