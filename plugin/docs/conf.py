@@ -5,7 +5,7 @@ import shutil
 
 project = 'Implicit material point method for YADE'
 root_doc = 'plugin/docs/index'
-include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', 'plugin/docs/*.md', 'plugin/docs/explanation/*.md', 'plugin/docs/tutorials/*.md', 'plugin/docs/classes/*.md', 'plugin/docs/studies-from-classes/*.md', 'build/docs/reference.rst', 'build/docs/messages.md', 'plugin/docs/studies/*.md']
+include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', 'plugin/docs/*.md', 'plugin/docs/explanation/*.md', 'plugin/docs/tutorials/*.md', 'plugin/docs/classes/*.md', 'build/docs/reference.rst', 'build/docs/messages.md', 'plugin/docs/studies/*.md']
 extensions = ['myst_parser', 'sphinx.ext.mathjax']
 myst_enable_extensions = ['dollarmath']
 myst_heading_anchors = 3
