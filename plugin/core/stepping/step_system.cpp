@@ -59,11 +59,11 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& clou
 
 template <int Dim>
 StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
-        : model(m), boundary(amongSoil(m.boundary, cloud, m.grid, m.basis, *m.division)), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
+        : model(m), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis           = cloudBasis(cloud, model.grid, model.basis, boundary, *model.division);
+		basis = cloudBasis(cloud, model.grid, model.basis, amongSoil(model.boundary, cloud, model.grid, model.basis, *model.division), *model.division);
 		points          = stepPoints(cloud, model.materials, basis, model.fBar);
 		points.duration = load.duration;
 		// Also for points that others have.

@@ -20,7 +20,6 @@ template <int Dim> struct StepSystem {
 	StepSystem(const StepSystem&) = delete; // the terms refer to what is here
 
 	const Model<Dim>&           model;
-	const Boundary<Dim>         boundary; ///< boundary of the model among the soil
 	CloudBasis<Dim>             basis;
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
