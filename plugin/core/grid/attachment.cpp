@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/attachment.hpp"
+#include "core/grid/cells_around.hpp"
 #include <limits>
 
 namespace gimpm {
@@ -21,11 +22,9 @@ std::optional<std::pair<Index<Dim>, int>> nearestCell(const Vec<Dim>& xi, const 
 	std::optional<std::pair<Index<Dim>, int>> nearest;
 	double                                    least = std::numeric_limits<double>::infinity();
 	const Index<Dim>                          own   = xi.array().floor().template cast<int>();
-	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
-		Index<Dim> cell = own;
-		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
-			cell[a] += rest % 3 - 1;
-		const Vec<Dim> away = outside<Dim>(xi, cell);
+	for (int i = 0; i < cellsAround<Dim>; ++i) {
+		const Index<Dim> cell = own + offsetAround<Dim>(i);
+		const Vec<Dim>   away = outside<Dim>(xi, cell);
 		if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) continue;
 		Key key = Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer);
 		if (grid.parting) key = grid.parting->cellFor(key);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/coverage.hpp"
+#include "core/grid/cells_around.hpp"
 #include "core/grid/grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,8 @@ template <int Dim> void cover(Cells<Dim>& cells, const Vec<Dim>& x, const Vec<Di
 
 template <int Dim> bool isWithin(const Cells<Dim>& cells, const Index<Dim>& cell)
 {
-	for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-		Index<Dim> near = cell;
-		for (int a = 0, rest = n; a < Dim; ++a, rest /= 3)
-			near[a] += rest % 3 - 1;
-		const auto found = cells.find(Grid<Dim>::key(near));
+	for (int n = 0; n < cellsAround<Dim>; ++n) {
+		const auto found = cells.find(Grid<Dim>::key(cell + offsetAround<Dim>(n)));
 		if (found == cells.end() || !found->second.hasCentre) return false;
 	}
 	return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/nearness.hpp"
+#include "core/grid/cells_around.hpp"
 #include "core/grid/refinement.hpp"
 
 namespace gimpm {
@@ -16,12 +17,8 @@ public:
 	{
 		for (std::size_t i = 0; i < positions.size(); ++i) {
 			const Index<Dim> own = cell(positions[i]);
-			for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-				Index<Dim> near = own;
-				for (int a = 0, rest = n; a < Dim; ++a, rest /= 3)
-					near[a] += step_ * (rest % 3 - 1);
-				near_.emplace_back(Grid<Dim>::key(grid.first(near)), int(i));
-			}
+			for (int n = 0; n < cellsAround<Dim>; ++n)
+				near_.emplace_back(Grid<Dim>::key(grid.first(own + step_ * offsetAround<Dim>(n))), int(i));
 			low_ = low_.cwiseMin(positions[i]), high_ = high_.cwiseMax(positions[i]);
 		}
 		std::sort(near_.begin(), near_.end());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/grid/overlaps.hpp"
+#include "core/grid/cells_around.hpp"
 #include "engine/points/parallel.hpp"
 #include <cmath>
 #include <set>
@@ -34,10 +35,8 @@ namespace {
 		{
 			for (auto l = levels.lower_bound(level[p]); l != levels.end(); ++l) {
 				const Cell centre = cellOf(cloud.position[p], *l);
-				for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-					Cell c = centre;
-					for (int a = 0, m = n; a < Dim; ++a, m /= 3)
-						c[a] += m % 3 - 1;
+				for (int n = 0; n < gimpm::cellsAround<Dim>; ++n) {
+					const Cell c = centre + gimpm::offsetAround<Dim>(n).template cast<int64_t>();
 					for (int q = first[bucket(c, *l)]; q >= 0; q = next[q])
 						if (q != p && level[q] == *l && cell[q] == c && !f(q)) return;
 				}

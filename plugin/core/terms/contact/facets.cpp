@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/facets.hpp"
+#include "core/grid/cells_around.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -108,13 +109,11 @@ template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& pos
 	const Vec<Dim>          xi    = (position - grid.origin) / grid.cellSize;
 	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
 	const Index<Dim> own = xi.array().floor().template cast<int>();
-	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
-		Index<Dim> cell = own;
-		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
-			cell[a] += rest % 3 - 1;
-		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
-		const double   away = (xi - inside).squaredNorm();
-		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+	for (int i = 0; i < cellsAround<Dim>; ++i) {
+		const Index<Dim> cell = own + offsetAround<Dim>(i);
+		const Vec<Dim>   low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
+		const double     away = (xi - inside).squaredNorm();
+		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
 		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
 			least = away, nearest = grid.origin + grid.cellSize * inside;
 	}

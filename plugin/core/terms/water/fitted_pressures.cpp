@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/water/fitted_pressures.hpp"
+#include "core/grid/cells_around.hpp"
 #include "core/terms/water/flow_point.hpp"
 #include <Eigen/Eigenvalues>
 #include <optional>
@@ -63,11 +64,9 @@ Eigen::VectorXd fittedPressures(const CloudBasis<Dim>& basis, const PointCloud<D
 		auto value = around[n].atNode();
 		if (!value) {
 			Moments<Dim> more;
-			for (int code = 0; code < (Dim == 2 ? 9 : 27); ++code) {
-				Index<Dim> offset;
-				for (int a = 0, rest = code; a < Dim; rest /= 3, ++a)
-					offset[a] = rest % 3 - 1;
-				const int other = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset)));
+			for (int number = 0; number < cellsAround<Dim>; ++number) {
+				const Index<Dim> offset = offsetAround<Dim>(number);
+				const int        other  = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset)));
 				if (other >= 0) more.addMoved(around[other], offset.template cast<double>());
 			}
 			value = more.atNode().value_or(around[n].mean());

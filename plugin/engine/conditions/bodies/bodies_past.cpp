@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/bodies/bodies_past.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/cells_around.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include <algorithm>
 #include <array>
@@ -74,24 +75,14 @@ namespace {
 		return cells;
 	}
 
-	// Cells around one, itself among them.
-	template <int Dim> constexpr int neighbourhood = Dim == 2 ? 9 : 27;
-
-	template <int Dim> gimpm::Key neighbour(gimpm::Index<Dim> cell, int number)
-	{
-		for (int axis = 0; axis < Dim; ++axis, number /= 3)
-			cell[axis] += number % 3 - 1;
-		return gimpm::Grid<Dim>::key(cell);
-	}
-
 	// A cell where two bodies are neighbours, and so share nodes, with the third one there.
 	template <int Dim> std::optional<gimpm::Index<Dim>> sharedAt(const std::unordered_map<gimpm::Key, Bodies>& cells, const Past& past)
 	{
 		for (const auto& [key, bodies] : cells) {
 			if (!bodies.count(past.one)) continue;
 			bool isOther = false, isBetween = false;
-			for (int n = 0; n < neighbourhood<Dim>; ++n) {
-				const auto near = cells.find(neighbour<Dim>(gimpm::Grid<Dim>::index(key), n));
+			for (int n = 0; n < gimpm::cellsAround<Dim>; ++n) {
+				const auto near = cells.find(gimpm::Grid<Dim>::key(gimpm::Grid<Dim>::index(key) + gimpm::offsetAround<Dim>(n)));
 				if (near == cells.end()) continue;
 				isOther   = isOther || near->second.count(past.other);
 				isBetween = isBetween || near->second.count(past.between);
@@ -125,8 +116,8 @@ namespace {
 			if (box.body == past.one) ofOne[gimpm::Grid<Dim>::key(cellOf(box))].push_back(&box);
 		return std::any_of(boxes.begin(), boxes.end(), [&](const Box<Dim>& box) {
 			if (box.body != past.other) return false;
-			for (int n = 0; n < neighbourhood<Dim>; ++n) {
-				const auto near = ofOne.find(neighbour<Dim>(cellOf(box), n));
+			for (int n = 0; n < gimpm::cellsAround<Dim>; ++n) {
+				const auto near = ofOne.find(gimpm::Grid<Dim>::key(cellOf(box) + gimpm::offsetAround<Dim>(n)));
 				if (near == ofOne.end()) continue;
 				for (const Box<Dim>* one : near->second)
 					if (touch(*one, box)) return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/cells_around.hpp"
 #include "core/terms/inertia/motion.hpp"
 #include "engine/conditions/bodies/bodies_past.hpp"
 #include "engine/conditions/bodies/layers.hpp"
@@ -99,11 +100,9 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 	if (pairs.empty()) return;
 	const auto bodiesIn = bodiesByCell(points, model);
 	for (const auto& [key, bodies] : bodiesIn)
-		for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-			gimpm::Index<Dim> cell = gimpm::Grid<Dim>::index(key);
-			for (int a = 0, rest = n; a < Dim; ++a, rest /= 3)
-				cell[a] += rest % 3 - 1;
-			const auto near = bodiesIn.find(gimpm::Grid<Dim>::key(cell));
+		for (int n = 0; n < gimpm::cellsAround<Dim>; ++n) {
+			const gimpm::Index<Dim> cell = gimpm::Grid<Dim>::index(key) + gimpm::offsetAround<Dim>(n);
+			const auto              near = bodiesIn.find(gimpm::Grid<Dim>::key(cell));
 			if (near == bodiesIn.end()) continue;
 			for (const int one : bodies)
 				for (const int other : near->second)
