@@ -186,12 +186,12 @@ def parts(rows, drawn, link=''):
 
 
 def write(folder):
-	"""Of runs of one's own."""
+	"""Page of runs of one's own."""
 	pages.write(folder, [INTRODUCTION, *parts(read(folder), folder)])
 
 
 def writeStudy(folder, home=studies.home):
-	"""Of the kept runs."""
+	"""Page of the kept runs."""
 	pages.write(home, [studies.conclusionOf('extremes'), '', *parts(read(folder), os.path.join(home, 'extremes'), 'extremes/')], 'extremes.md')
 
 

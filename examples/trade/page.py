@@ -165,12 +165,12 @@ def parts(folder, plans, drawn, link=''):
 
 
 def write(folder, plans):
-	"""Of runs of one's own."""
+	"""Page of runs of one's own."""
 	pages.write(folder, [INTRODUCTION, *parts(folder, plans, folder)])
 
 
 def writeStudy(folder, plans, home=studies.home):
-	"""Of the kept runs."""
+	"""Page of the kept runs."""
 	pages.write(home, [studies.conclusionOf('trade'), '', *parts(folder, plans, os.path.join(home, 'trade'), 'trade/')], 'trade.md')
 
 

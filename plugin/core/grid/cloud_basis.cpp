@@ -33,7 +33,7 @@ template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 			}
 }
 
-/// From sorted positions.
+/// Makes patches from points in their order.
 template <int Dim> void makePatches(const std::vector<PointOrder<Dim>>& orders, CloudBasis<Dim>& b)
 {
 	b.order.resize(orders.size());

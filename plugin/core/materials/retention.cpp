@@ -62,8 +62,8 @@ Value Retention::saturation(double pressure) const
 	return { saturated - range * (1 - part.value), range * part.slope };
 }
 
-/// Of Brooks and Corey's curve S_e^(2.5 + 2/n). That of van Genuchten's has a slope without bounds at s = 0 for n < 2,
-/// where a chord takes the position of its first part (Vogel and others 2000 change the curve for that).
+/// Mualem's relative permeability: S_e^(2.5 + 2/n) with Brooks and Corey's curve. With van Genuchten's its slope has no
+/// bounds at s = 0 for n < 2, where a chord takes the place of its first part (Vogel and others 2000 change the curve).
 Value Retention::mualem(double s) const
 {
 	if (curve == Curve::brooksCorey) {
@@ -79,7 +79,7 @@ Value Retention::mualem(double s) const
 	const double m = 1 - 1 / exponent, x = std::pow(alpha * s, exponent), root = std::pow(1 + x, -m / 2);
 	const double full = std::exp(-m * std::log1p(1 / x)), rest = -std::expm1(-m * std::log1p(1 / x));
 	const double value = root * rest * rest;
-	const double fall  = m * exponent / (s * (1 + x)); // of the logarithm of `full`, over the suction
+	const double fall  = m * exponent / (s * (1 + x)); // derivative of the logarithm of `full` by the suction
 	return { value, fall * (x / 2 * value + 2 * root * rest * full) };
 }
 

@@ -13,7 +13,7 @@ enum class LinearMethod { automatic, direct, iterative, multigrid };
 enum class SolverStatus { cholesky, lu, singular, iterative };
 
 struct SolverTimes {
-	double analyse = 0, factorise = 0, solve = 0; ///< [s]; to set up multigrid takes the position of a factorisation
+	double analyse = 0, factorise = 0, solve = 0; ///< [s]; to set up multigrid takes the place of a factorisation
 };
 
 struct IterativeEffort {

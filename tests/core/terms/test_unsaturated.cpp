@@ -8,7 +8,7 @@ namespace {
 
 	constexpr double weight = 1e4; // of water [N/m3]
 
-	/// With pores that need not be full, and water that has its weight.
+	/// Soil with pores that need not be full, and water that has its weight.
 	template <int Dim> struct DryingSoil : Soil<Dim> {
 		DryingSoil(double h, Vec<Dim> size, const Retention& law, double modulus, bool axisymmetric = false) : Soil<Dim>(h, size, axisymmetric, modulus)
 		{

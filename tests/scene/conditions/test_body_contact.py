@@ -32,7 +32,7 @@ def means(number):
 	return points['volume'][own] @ points['velocity'][own] / points['volume'][own].sum()
 
 def slides(contact, steps, each=1):
-	"""Of the upper body: along x, over the second half of the steps, of which each is so many."""
+	"""Motion of the upper body along x, over the second half of the steps, of which each is so many."""
 	times, speeds = [], []
 	for step in range(steps):
 		O.run(each, wait=True)
@@ -481,7 +481,7 @@ def two(names=('low', 'up'), between=('low', 'up'), **settings):
 	O.dt = 1
 
 def stack(*pairs, cellSize=2):
-	"""Of three bodies; without a contact of the lower two these stick."""
+	"""Three bodies; without a contact of the lower two these stick."""
 	two(names=('low', 'up', 'top'), grid=dict(cellSize=cellSize), contacts=[MpmBodyContact(between=pair.split('-'), friction=0.5) for pair in pairs])
 '''
 refusals = {

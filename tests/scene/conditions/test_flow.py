@@ -29,7 +29,7 @@ def column(cells=8, level=None, base=0, drains=True, poisson=0, gravity=0, point
 	return solver
 
 def refusal(change):
-	"""What is said of a scene that this makes different."""
+	"""Words said of a scene that this makes different."""
 	solver = column()
 	O.dt = 10
 	try:

@@ -43,7 +43,7 @@ def test_a_table_that_is_kept_again_stays_in_its_place(tmp_path, monkeypatch):
 
 
 def test_new_rows_of_a_case_replace_the_old_ones(tmp_path, monkeypatch):
-	"""Which are kept as earlier ones."""
+	"""Old rows are kept as earlier ones."""
 	monkeypatch.setattr(studies, 'home', str(tmp_path))
 	for folder, file, rows in ('a', 'cases.csv', [['x', '1'], ['y', '1']]), ('a', 'earlier.csv', []), ('out', 'cases.csv', [['y', '2'], ['z', '2']]):
 		studies.keep(tmp_path / folder, file, 'Cases', '`scripts/a`', [['case', 'N'], *rows])

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Those in or on which a contact point of the body may be.
+/// Bodies in or on which a contact point of the body may be.
 template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
 {
 	const auto [low, high] = system_.bodies[number].bounds(system_.bodies[number].begin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The nodes that a contact point of contact presses on, and with which shares.
+// The nodes that a contact point presses on, and with which shares.
 #pragma once
 #include "core/grid/attachment.hpp"
 

@@ -5,7 +5,7 @@
 
 namespace gimpm {
 
-/// Of each node the linear function that fits the pressures of the points around it best, weighted by functions and
+/// Linear function at each node that fits the pressures of the points around it best, weighted by functions and
 /// volumes; where these do not tell its gradient, that of the points around its neighbours, too. Linear pressures are
 /// exact at any cut of the cells. All points are known, and cells are equal.
 template <int Dim> Eigen::VectorXd fittedPressures(const CloudBasis<Dim>&, const PointCloud<Dim>&, const Grid<Dim>&, const std::vector<double>& pressure);

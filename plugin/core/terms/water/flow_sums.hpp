@@ -327,7 +327,7 @@ private:
 			}
 		}
 	}
-	/// Of the displacements: water that a point takes up pulls it down.
+	/// Weight of the water that a point takes up, on the displacements: it pulls the point down.
 	void addWeight(int m, int n, int code) const
 	{
 		Mat<Dim> block;

@@ -4,7 +4,7 @@
 
 namespace gimpm {
 
-/// What points have more or less than the nodes say, as they have moved on the grid, goes to their nodes in the step.
+/// Gives nodes the content that their points have more or less than these say, as points have moved on the grid.
 template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 {
 	constexpr int nodes = windowNodes<Dim>;

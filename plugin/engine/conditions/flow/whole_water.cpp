@@ -39,7 +39,7 @@ template <int Dim> const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoi
 	return curve;
 }
 
-// What suction holds, and the water that is there, stay in a study as they are.
+// Keeps suction and water in a study as they are.
 template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>& step) const
 {
 	if (!water.whole) return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step);
