@@ -122,8 +122,8 @@ template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pos
 
 namespace {
 
-/// Weights along the axes of the grid of a contact point on a block: one along those to which a small side of its face is
-/// close.
+/// Weights along the axes of the grid of a contact point on a block: one along those to which a small side of its face
+/// is close.
 template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec<Dim>& normal, double cellSize)
 {
 	Vec<Dim> shares = Vec<Dim>::Zero();
