@@ -346,7 +346,7 @@ They were measured beside other programs, at a higher priority than these.
 """
 
 CASES = dict(
-        methods="""A cantilever of 15 x 15 x 120 cells, 2 x 2 x 2 points a cell, off the grid lines by .3 of a cell, under its own weight:
+        methods="""A cantilever of 15 x 15 x 120 cells, 2 x 2 x 2 points a cell, off the grid lines by 0.3 of a cell, under its own weight:
 
 """,
         size="""Its size, to 1e-8:
@@ -388,7 +388,7 @@ SHARING = """### Two processes
 
 The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`, at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, with all points in both and with points divided by `mpm.add`, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
-one after it is part of the update. Measured with precedence over other programs (`chrt`). With the first step comes what it takes to begin MPI and to open PETSc, some .2 s, in what is from and to bodies. Memory is the peak of the process.
+one after it is part of the update. Measured with precedence over other programs (`chrt`). With the first step comes what it takes to begin MPI and to open PETSc, some 0.2 s, in what is from and to bodies. Memory is the peak of the process.
 
 """
 
@@ -412,7 +412,7 @@ the same block turned. Measured beside other programs, on which memory does not 
 
 LARGE = """### A million points in 3D
 
-The slope at h = 0.5 m with 2 x 2 x 2 points a cell and 115 cells deep, two threads: the step from load factor .5 to .6, the third after .25 and .5 (`scripts/bench --large`).
+The slope at h = 0.5 m with 2 x 2 x 2 points a cell and 115 cells deep, two threads: the step from load factor 0.5 to 0.6, the third after 0.25 and 0.5 (`scripts/bench --large`).
 Memory is the peak beside YADE's own: the bodies and all that a step takes.
 
 """
