@@ -26,23 +26,23 @@ EdgeOfSoil::EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const P
 	std::sort(points_.begin(), points_.end(), [&](int p, int q) { return cloud.position[p][axis_] < cloud.position[q][axis_]; });
 }
 
-std::vector<int> EdgeOfSoil::around(const Vec<2>& position, int layer) const
+std::vector<int> EdgeOfSoil::around(const Vec<2>& position, const BesideBeam& isBeside) const
 {
 	const auto       along = [&](int p) { return cloud_.position[p][axis_]; };
 	const auto       first = std::lower_bound(points_.begin(), points_.end(), position[axis_] - reach_, [&](int p, double x) { return along(p) < x; });
 	std::vector<int> near;
 	for (auto p = first; p != points_.end() && along(*p) <= position[axis_] + reach_; ++p)
-		if (cloud_.layerOf(*p) == layer && (cloud_.position[*p] - position).cwiseAbs().maxCoeff() <= reach_) near.push_back(*p);
+		if ((cloud_.position[*p] - position).cwiseAbs().maxCoeff() <= reach_ && isBeside(*p)) near.push_back(*p);
 	std::sort(near.begin(), near.end());
 	return near;
 }
 
-double EdgeOfSoil::from(const Vec<2>& position, const Vec<2>& n, int layer) const
+double EdgeOfSoil::from(const Vec<2>& position, const Vec<2>& n, const BesideBeam& isBeside) const
 {
 	const double h = cellSize_, window = h / 2;
 	const Vec<2> t(-n[1], n[0]);
 	double       before = 0, behind = 0;
-	for (const int p : around(position, layer)) {
+	for (const int p : around(position, isBeside)) {
 		const Vec<2> apart     = cloud_.position[p] - position;
 		const auto   halfAlong = [&](const Vec<2>& e) { return e.cwiseProduct(cloud_.halfSize[p]).norm(); };
 		const double along     = overlap(apart.dot(t), halfAlong(t), -window, window);

@@ -183,6 +183,15 @@ void lookBetween(const std::vector<Beam*>& beams, const PointCloud<2>& cloud, co
 		beam->layer = 0, beam->isTip = {}, beam->isBetween = isBetween(*beam, cloud, grid);
 }
 
+BesideBeam::BesideBeam(const Beam& beam, int side, const PointCloud<2>& cloud) : beam_(beam), side_(side), cloud_(cloud) { }
+
+bool BesideBeam::operator()(int p) const
+{
+	const int layer = cloud_.layerOf(p);
+	if (layer != 0 && (side_ > 0 || layer != beam_.layer)) return false;
+	return side_ * fromLine(beam_.positions, cloud_.position[p]).left > 0;
+}
+
 std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& positions, double cellSize)
 {
 	std::vector<int> sides(positions.size(), 0);

@@ -5,7 +5,8 @@
 namespace gimpm {
 
 template <int Dim>
-std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& positions, const std::vector<double>& reach, const StepContext<Dim>& step, int layer)
+std::vector<SoilNear<Dim>> soilNear(
+        const std::vector<Vec<Dim>>& positions, const std::vector<double>& reach, const StepContext<Dim>& step, const std::function<bool(int)>& isTaken)
 {
 	const double farthest = *std::max_element(reach.begin(), reach.end());
 	const auto&  cloud    = step.cloud;
@@ -17,9 +18,9 @@ std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& positions, cons
 	std::vector<SoilNear<Dim>> near(positions.size());
 	std::vector<double>        weight(positions.size(), 0);
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
-		if (layer >= 0 && cloud.layerOf(int(p)) != layer) continue;
 		const Vec<Dim>& x = cloud.position[p];
 		if (!step.grid.isPeriodic() && ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0)) continue;
+		if (isTaken && !isTaken(int(p))) continue;
 		std::optional<VolumeAndModulus> soil;
 		for (std::size_t i = 0; i < positions.size(); ++i) {
 			double nearness = 1;
@@ -41,7 +42,7 @@ std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& positions, cons
 	return near;
 }
 
-template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const StepContext<2>&, int);
-template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const StepContext<3>&, int);
+template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const StepContext<2>&, const std::function<bool(int)>&);
+template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const StepContext<3>&, const std::function<bool(int)>&);
 
 } // namespace gimpm

@@ -124,7 +124,8 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 		const Beam&               beam  = *structure_.beam;
 		const std::size_t         count = beam.positions.size(), right = soil.size();
 		const std::vector<double> cells(count, step.grid.cellSize);
-		const std::array          near { soilNear<2>(beam.positions, cells, step, 0), soilNear<2>(beam.positions, cells, step, beam.layer) };
+		const std::array          beside { BesideBeam(beam, 1, step.cloud), BesideBeam(beam, -1, step.cloud) };
+		const std::array          near { soilNear<2>(beam.positions, cells, step, beside[0]), soilNear<2>(beam.positions, cells, step, beside[1]) };
 		const EdgeOfSoil          edges(beam.positions, step.grid.cellSize, step.cloud);
 		soil.resize(right + count), attached_.resize(right + count);
 		for (std::size_t v = 0; v < count; ++v) {
@@ -137,7 +138,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 			const bool isOne = at[0] && at[1] && at[0]->node == at[1]->node;
 			for (const int side : { 0, 1 }) {
 				const Vec<2> inwards = (side == 0 ? 1 : -1) * n;
-				if (!isOne) at[side] = attachAt(side, edges.from(beam.positions[v], inwards, side == 0 ? 0 : beam.layer));
+				if (!isOne) at[side] = attachAt(side, edges.from(beam.positions[v], inwards, beside[side]));
 				if (!at[side]) soil[v].sides &= ~(1 << side);
 			}
 			attached_[v]   = at[soil[v].sides == 2];
@@ -146,10 +147,10 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 			attached_[right + v] = at[1];
 			soil[right + v]      = soil[v];
 			for (const int side : { 0, 1 }) {
-				SoilAtVertex& beside = soil[side * right + v];
-				beside.young         = near[side][v].young;
-				beside.normalStress  = normalStress(near[side][v].stress, t);
-				beside.shearStress   = shearStress(near[side][v].stress, t);
+				SoilAtVertex& soilHere = soil[side * right + v];
+				soilHere.young         = near[side][v].young;
+				soilHere.normalStress  = normalStress(near[side][v].stress, t);
+				soilHere.shearStress   = shearStress(near[side][v].stress, t);
 			}
 		}
 	}
@@ -177,7 +178,8 @@ template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const StepContext<D
 			auto       left = attachTo(0, 0), right = attachTo(beam.layer, 0);
 			const bool isParted = beam.isTip[end] && left && right && left->node != right->node;
 			if (isParted)
-				left = attachTo(0, edges.from(positions[i], n, 0)), right = attachTo(beam.layer, -edges.from(positions[i], -n, beam.layer));
+				left  = attachTo(0, edges.from(positions[i], n, BesideBeam(beam, 1, step.cloud))),
+				right = attachTo(beam.layer, -edges.from(positions[i], -n, BesideBeam(beam, -1, step.cloud)));
 			for (SoilAtVertex& at : beside) {
 				at.exists       = isParted && left && right && near[i].young > 0;
 				at.young        = near[i].young;
