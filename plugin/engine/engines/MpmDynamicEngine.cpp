@@ -12,6 +12,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/energies.hpp"
 #include "yade_api/registration.hpp"
+#include <numeric>
 
 namespace yade {
 
@@ -69,7 +70,9 @@ std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(schem
 // The imbalance is what integration in time and the way of velocities to the grid and back have added.
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
-	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
+	const auto points = materialPoints(*ownScene(), mask);
+	Energies   own    = energiesOf(points);
+	own.elastic = std::accumulate(points.begin(), points.end(), Real(0), [](Real sum, const MaterialPoint& p) { return sum + elasticEnergyToTell(p); });
 	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];

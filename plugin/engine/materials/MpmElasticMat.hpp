@@ -26,6 +26,7 @@ public:
 	}
 	void       requireAdmissible() const override;
 	Quantities moduli() const override { return { { "young", young } }; }
+	bool       hasHenckyElasticity() const override { return true; }
 };
 
 } // namespace yade

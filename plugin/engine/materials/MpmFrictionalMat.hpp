@@ -49,6 +49,7 @@ public:
 	gimpm::Law law(Real viscosity, const std::function<gimpm::PowerElastic::Strength(Real, Real)>& make) const;
 	// std::invalid_argument with a power, for another attribute that does not go with it, and what to do instead.
 	void       requireWithoutPower(const char* other, Real value, const char* instead) const;
+	bool       hasHenckyElasticity() const override { return power == 0; }
 	Quantities strengths() const override { return frictionAngle == 0 ? Quantities { { "cohesion", cohesion } } : Quantities(); }
 };
 

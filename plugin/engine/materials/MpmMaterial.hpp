@@ -77,6 +77,9 @@ public:
 	// std::invalid_argument if no step can begin from this state of a point.
 	virtual void requireStart(const Matrix3r& /*stress*/) const { }
 
+	// True if elastic energy is half Kirchhoff stress times elastic strain (linear Hencky elasticity).
+	virtual bool hasHenckyElasticity() const { return false; }
+
 	// The attribute by which its law depends on time in seconds; null: it does not.
 	virtual const char* timeAttribute() const { return std::isnan(relaxationTime) ? nullptr : "relaxationTime"; }
 

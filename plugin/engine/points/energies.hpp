@@ -29,4 +29,10 @@ inline Real elasticEnergy(const MaterialPoint& point)
 	return ofSoil + std::pow(state.volume * state.excessPressure, 2) / (2 * state.volume0 * point.material->waterModulus);
 }
 
+// Energy that is told: NaN of a point whose elasticity is not Hencky's, so that sums with it are NaN as well [J].
+inline Real elasticEnergyToTell(const MaterialPoint& point)
+{
+	return point.material->hasHenckyElasticity() ? elasticEnergy(point) : std::numeric_limits<Real>::quiet_NaN();
+}
+
 } // namespace yade

@@ -212,7 +212,6 @@ class Beams(Kind):
 		self.law = draw.choice(['elastic', 'elastic', 'vonMises', 'mohrCoulomb'])
 		self.side = 3. if self.dim == 2 else 1.
 		self.long = 2 * self.side if self.dim == 2 else 1.5
-		# Soil at a tip is not told apart by sides as it should be: lines that are inclined and end in the soil depend on which way they are drawn
 		self.part = draw.choice(['bar'] if self.dim == 3 else ['plate', 'plate', 'lining'] if self.isRing else ['plate', 'wall', 'wall', 'anchored', 'bar', 'bar'])
 		self.x, self.y = draw.uniform(.3, .6) * self.long, draw.uniform(.3, .6) * self.side
 		self.toX, self.toY = self.x + draw.choice([-1, 1]) * draw.uniform(.2, .35) * self.long, self.y + draw.uniform(-.25, .25) * self.side
@@ -227,6 +226,7 @@ class Beams(Kind):
 		self.isBalanced = not self.isDynamic and not self.weight and not self.water
 		self.load = 6e3
 		self.admitted = dict(finer=.35, shorter=.15)
+		self.lean = draw.choice([0., draw.uniform(-.7, .7)])
 		if self.isDynamic: self.dt = .004
 
 	def bar(self, text, line, isOfWall=False):
@@ -254,9 +254,10 @@ class Beams(Kind):
 		if self.part == 'bar': return [self.bar(text, [a, b])]
 		if self.part == 'plate': return [self.beam(text, [(0., H, 0), (self.x, H, 0)] if self.isRing else [(.2 * W, H, 0), (.2 * W + self.x, H, 0)])]
 		if self.part == 'lining': return [self.beam(text, [(self.x, H, 0), (self.x, self.foot, 0)])]
-		wall = [(self.x, H, 0), (self.x, self.foot, 0)]
+		wall = [(self.x, H, 0), (self.x + self.lean, self.foot, 0)]
 		if self.part == 'wall': return [self.beam(text, wall)]
-		text.add(f'anchor = {self.bar(text, [(self.x, H - .6, 0), (.4, H - 1.1, 0)], True)}')
+		head = self.x + self.lean * .6 / (H - self.foot)
+		text.add(f'anchor = {self.bar(text, [(head, H - .6, 0), (.4, H - 1.1, 0)], True)}')
 		return [self.beam(text, wall, anchors='[anchor]')]
 
 	def write(self, text):

@@ -654,3 +654,47 @@ for x, foot in (3.3, .8), (2.85, 1.3), (3.3, 1), (3.3, 1.0000000000000004):
 print(json.dumps(found))
 ''').result
 	assert max(max(both) for both in found) < 1e-5, found  # springs that touch or not by round-off
+
+
+def test_a_beam_in_the_soil_is_the_same_from_its_other_end_and_in_a_mirror(yade):
+	"""Both ends in the soil, inclined and upright: soil ahead of a tip is on the side where it is."""
+	found = yade(block + '''
+def forces(line, mirrored=False):
+	beam = MpmBeam(line=[(4 - x if mirrored else x, y) for x, y in line], axialStiffness=1e7, bendingStiffness=1e5)
+	ground(beam, size=(4, 2), cellSize=.5, young=1e6, poisson=.3, fix='xy', newton=MpmNewton(tolerance=1e-11))
+	solver.gravity = (0, -1e10, 0)
+	O.run(2, wait=True)
+	return np.array(beam.axialForces)
+found = []
+for line in [(3.35, 1), (2.05, 1.29)], [(3.35, .8), (2.15, 1.6)], [(3.35, 1.7), (2.9, .6)], [(2.8, 1.7), (2.8, .6)]:
+	N = forces(line)
+	found += [abs(N - forces(line[::-1])[::-1]).max() / abs(N).max(), abs(N - forces(line, mirrored=True)).max() / abs(N).max()]
+print(json.dumps(found))
+''').result
+	assert max(found) < 1e-9, found
+
+
+def test_a_wall_that_stands_on_its_tip_is_told_of(yade):
+	"""Smooth, anchored, phi = 35 degrees: statics lets it stand down to 5.85 m (front at most Kp gamma D^2 / 2, back at least Ka gamma L^2 / 2), and not at 6.25 m."""
+	run = yade(block + '''
+import sys
+O.materials.append(MpmMohrCoulombMat(young=5e7, poisson=.3, density=2e3, cohesion=100, frictionAngle=radians(35), dilationAngle=radians(35), label='sand'))
+grid = MpmGrid(cellSize=.5)
+O.bodies.append(mpm.fill(mpm.polygon([(-16, -11), (13, -11), (13, 0), (-16, 0)]), grid, 2, 'sand'))
+held = [MpmBoundary(max=(-16, inf, inf), fix='x'), MpmBoundary(min=(13, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -11, inf), fix='xy')]
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, gravityCurve=[(0, 1)], verbosity=0, fBar=True)
+O.engines, O.dt = [solver], 1
+mpm.geostatic(.45)
+anchor = MpmReinforcement(line=[(0, -1.2), (-8, -1.2), (-13, -1.2)], axialStiffness=3e7, freeLength=7.5, bond=1e5, bondStiffness=1e8)
+wall = MpmBeam(line=[(0, 0), (0, -7.5)], axialStiffness=1e10, bendingStiffness=1e9, adhesion=0, fixFoot='y', anchors=[anchor])
+solver.loads = [wall]
+O.run(1, wait=True)
+for dug in 2.5, 4.5, 5.5, 6.25:
+	print(f'dug out: {dug} m', file=sys.stderr, flush=True)
+	y, x = np.array(wall.vertices)[::-1, 1], np.array(wall.vertices)[::-1, 0]
+	mpm.stages.excavate(lambda at, pad=0: at[1] > -dug and at[0] > np.interp(at[1], y, x), steps=3)
+	O.run(3, wait=True)
+''')
+	stages = dict(part.split(' m\n', 1) for part in run.stderr.split('dug out: ')[1:])
+	assert {dug: 'a wall may stand on its tip' in told for dug, told in stages.items()} == {'2.5': False, '4.5': False, '5.5': False, '6.25': True}
+	assert 'the vertex of loads[0] at (' in stages['6.25']

@@ -128,6 +128,31 @@ O.dt = 0.02
 ''', 5)
 
 
+def test_elastic_energy_that_is_not_henckys_is_told_as_nan(yade):
+	"""Laws whose elasticity depends on the pressure have another energy, and foreign ones an unknown one."""
+	told = yade(scene + '''
+power = dict(young=2e7, poisson=.3, cohesion=5e3, frictionAngle=.55, density=2000, label='soil')
+soils = dict(
+	friction=MpmMohrCoulombMat(**power), power=MpmMohrCoulombMat(power=.5, **power),
+	clay=MpmCamClayMat(density=2000, shearModulus=5e6, criticalStateRatio=1.2, compressionIndex=.1, swellingIndex=.02, preconsolidation=1e5, referencePressure=1e3, label='soil'),
+	sand=MpmHardeningSoilMat(density=2000, E50ref=3e7, Eoedref=3e7, Eurref=9e7, power=.5, cohesion=1e3, frictionAngle=.61, dilationAngle=.09, K0nc=.43, label='soil'))
+told = {}
+for name, soil in soils.items():
+	O.reset()
+	O.materials.append(soil)
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (2, 2, 1)), grid, 2, 'soil'))
+	solver = MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], verbosity=0)
+	O.engines, O.dt = [solver], 1e-3
+	mpm.geostatic(.5 if 'ower' in name or name == 'friction' else None)
+	O.run(2, wait=True)
+	data = solver.plotData()
+	told[name] = [bool(np.isnan(data[x])) for x in ('elasticEnergy', 'energyImbalance', 'plasticWork')]
+print(json.dumps(told))
+''').result
+	assert told == dict(friction=[False] * 3, power=[True, True, False], clay=[True, True, False], sand=[True, True, False])
+
+
 def test_slow_loading_is_static(yade):
 	"""A ramp over ten thousand periods: the result of MpmImplicitEngine."""
 	yade(scene + '''

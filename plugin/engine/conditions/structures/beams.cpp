@@ -5,6 +5,7 @@
 #include "core/structures/parting_lines.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
+#include <numeric>
 
 namespace yade {
 
@@ -281,6 +282,28 @@ void Beams::reach(const StepOutcome<2>& step)
 	}
 }
 
+namespace {
+	// Share of the force of the soil on a side of a beam that its vertex at a tip in the soil bears alone, if that is
+	// much more than its share of a pressure that grows linearly; else 0. A vertex that is held bears what it must.
+	Real shareOfTip(const Beam& beam, int end)
+	{
+		constexpr Real      much = 0.25, overLinear = 1.4;
+		constexpr int       fewest = 4;
+		const auto&         held   = end == 0 ? beam.fixedHead : beam.fixedFoot;
+		const gimpm::Vec<2> along  = beam.outwardsAt(end);
+		if (beam.layer == 0 || !beam.isTip[end] || held[std::abs(along[0]) > std::abs(along[1]) ? 1 : 0]) return 0;
+		for (const auto& side : beam.sides) {
+			const auto& forces  = side.normalForce;
+			const auto  pressed = std::count_if(forces.begin(), forces.end(), [](Real f) { return f > 0; });
+			const Real  sum     = std::accumulate(forces.begin(), forces.end(), Real(0));
+			if (pressed < fewest || !(sum > 0)) continue;
+			const Real share = (end == 0 ? forces.front() : forces.back()) / sum;
+			if (share > std::max(much, overLinear / Real(pressed))) return share;
+		}
+		return 0;
+	}
+}
+
 std::map<string, string> Beams::warnings() const
 {
 	std::map<string, string> found;
@@ -292,6 +315,13 @@ std::map<string, string> Beams::warnings() const
 			        " has soil on both of its sides, which stays one body, as rough along the beam as it is itself: beams do not part it beside ",
 			        inItsWay.empty() ? "another one within three cells, nor where they are hardly longer than a cell" : inItsWay,
 			        ". Pressures and moments of a wall are too small then.");
+		for (const int end : { 0, 1 })
+			if (const Real share = shareOfTip(beam, end); share > 0)
+				found["tip of " + beam.name] = gimpm::sentence(
+				        "the vertex of ", beam.name, " at (", (end == 0 ? beam.positions.front() : beam.positions.back()).transpose(),
+				        ") bears ", std::lround(100 * share),
+				        " % of the force of the soil on one of its sides. Soil does not slip past a tip within its cell, so that a wall may stand on "
+				        "its tip where limit equilibrium says that it falls: compare with a hand calculation before relying on it.");
 		if (i < crossed.size() && crossed[i] > 0)
 			found["through " + beam.name] = gimpm::sentence(
 			        crossed[i], crossed[i] == 1 ? " material point has" : " material points have", " gone through ", beam.name,
