@@ -16,8 +16,8 @@ void partSoil(const std::vector<Beam*>&, PointCloud<2>&, Grid<2>&);
 /// Finds the beams that have soil on both of their sides; no more, where none may part it.
 void lookBetween(const std::vector<Beam*>&, const PointCloud<2>&, const Grid<2>&);
 
-/// Points on one side (1 left, -1 right) of a beam that parts the soil, and of its line beyond its ends. Not all points to
-/// its right have its layer: those that are far from nodes of their own have the layer of the others.
+/// Points on one side (1 left, -1 right) of a beam that parts the soil, and of its line beyond its ends. Not all points
+/// to its right have its layer: those that are far from nodes of their own have the layer of the others.
 class BesideBeam {
 public:
 	BesideBeam(const Beam&, int side, const PointCloud<2>&);

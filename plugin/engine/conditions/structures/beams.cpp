@@ -283,8 +283,9 @@ void Beams::reach(const StepOutcome<2>& step)
 }
 
 namespace {
-	// Share of the force of the soil on a side of a beam that its vertex at a tip in the soil bears alone, if that is
-	// much more than its share of a pressure that grows linearly; else 0. A vertex that is held bears what it must.
+	// Share of the force of the soil on a side of a beam that its vertex at a tip in the soil bears alone, if that
+	// is much more than its share of a pressure that grows linearly; else 0. A vertex that is held bears what it
+	// must.
 	Real shareOfTip(const Beam& beam, int end)
 	{
 		constexpr Real      much = 0.25, overLinear = 1.4;
