@@ -12,7 +12,6 @@
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/energies.hpp"
 #include "yade_api/registration.hpp"
-#include <numeric>
 
 namespace yade {
 
@@ -72,7 +71,7 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
 	const auto points = materialPoints(*ownScene(), mask);
 	Energies   own    = energiesOf(points);
-	own.elastic = std::accumulate(points.begin(), points.end(), Real(0), [](Real sum, const MaterialPoint& p) { return sum + elasticEnergyToTell(p); });
+	if (!isElasticEnergyKnown(points)) own.elastic = std::numeric_limits<Real>::quiet_NaN();
 	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];

@@ -30,11 +30,12 @@ namespace {
 			const Vector3r  displacement = state.pos - state.refPos;
 			t.volume0 += state.volume0;
 			if (state.plasticStrain > 0) t.plasticVolume0 += state.volume0;
-			t.elasticEnergy += elasticEnergyToTell(point);
+			t.elasticEnergy += elasticEnergy(point);
 			t.massTimesDisplacement += point.material->density * state.volume0 * displacement;
 			t.largestDisplacement = std::max(t.largestDisplacement, displacement.norm());
 			t.settlement          = std::max(t.settlement, displacement.dot(down));
 		}
+		if (!isElasticEnergyKnown(points)) t.elasticEnergy = unknown;
 		return t;
 	}
 

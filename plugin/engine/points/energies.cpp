@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/energies.hpp"
 #include "core/parallel/together.hpp"
+#include <algorithm>
 
 namespace yade {
 
@@ -16,6 +17,11 @@ Energies energiesOf(const vector<MaterialPoint>& points)
 		sum.elastic += elasticEnergy(point);
 	}
 	return sum;
+}
+
+bool isElasticEnergyKnown(const vector<MaterialPoint>& points)
+{
+	return std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.material->hasHenckyElasticity(); });
 }
 
 Energies ofAll(const Energies& own, const gimpm::Processes& all)

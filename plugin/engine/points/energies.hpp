@@ -16,6 +16,9 @@ struct Energies {
 
 Energies energiesOf(const vector<MaterialPoint>&);
 
+// True if the elasticity of all points is Hencky's, whose energy elasticEnergy is.
+bool isElasticEnergyKnown(const vector<MaterialPoint>&);
+
 // From those of the points of each process.
 Energies ofAll(const Energies&, const gimpm::Processes&);
 
@@ -27,12 +30,6 @@ inline Real elasticEnergy(const MaterialPoint& point)
 	const Real      ofSoil = 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum();
 	if (!point.material->undrained) return ofSoil;
 	return ofSoil + std::pow(state.volume * state.excessPressure, 2) / (2 * state.volume0 * point.material->waterModulus);
-}
-
-// Energy that is told: NaN of a point whose elasticity is not Hencky's, so that sums with it are NaN as well [J].
-inline Real elasticEnergyToTell(const MaterialPoint& point)
-{
-	return point.material->hasHenckyElasticity() ? elasticEnergy(point) : std::numeric_limits<Real>::quiet_NaN();
 }
 
 } // namespace yade

@@ -129,7 +129,7 @@ O.dt = 0.02
 
 
 def test_elastic_energy_that_is_not_henckys_is_told_as_nan(yade):
-	"""Laws whose elasticity depends on the pressure have another energy, and foreign ones an unknown one."""
+	"""Laws whose elasticity depends on the pressure have another energy."""
 	told = yade(scene + '''
 power = dict(young=2e7, poisson=.3, cohesion=5e3, frictionAngle=.55, density=2000, label='soil')
 soils = dict(

@@ -42,7 +42,6 @@ public:
 		  "True: several threads may call it at a time; if it keeps variables from call to call (SAVE, COMMON), they may not.");
 	}
 	void requireAdmissible() const override;
-	bool hasHenckyElasticity() const override { return false; }
 };
 
 } // namespace yade
