@@ -19,13 +19,6 @@ namespace {
 		                                         : half;
 	}
 
-	gimpm::LinearMethod linearMethod(const string& name)
-	{
-		if (name == "auto") return gimpm::LinearMethod::automatic;
-		if (name == "amg") return gimpm::LinearMethod::multigrid;
-		return name == "direct" ? gimpm::LinearMethod::direct : gimpm::LinearMethod::iterative;
-	}
-
 	// Position in the model's list of materials, which grows by each material on its first point.
 	class MaterialIndex {
 	public:
@@ -268,38 +261,6 @@ void requireBody(int body, int count, const string& where)
 	        + " bodies of points: the engine needs the grid that mpm.fill was given.");
 }
 
-template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const Conditions<Dim>& conditions)
-{
-	const MpmGhost&  ghost  = *analysis.ghost;
-	const MpmNewton& newton = *analysis.newton;
-	analysis.grid->requireAdmissible();
-	ghost.requireAdmissible();
-	newton.requireAdmissible();
-	if (analysis.fBar && ghost.factor == 0)
-		throw std::invalid_argument(
-		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
-		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
-	gimpm::Model<Dim> model;
-	model.grid                    = analysis.grid->lattice<Dim>();
-	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
-	model.domains                 = analysis.domainRule();
-	model.fBar                    = analysis.fBar;
-	model.pressureRelaxation      = analysis.pressureRelaxation;
-	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
-	model.ghost.memory            = ghost.memory;
-	model.ghost.workTolerance     = ghost.workTolerance;
-	model.ghost.threshold         = ghost.where == "aggregates" ? ghost.threshold : 0;
-	model.newton.tolerance        = newton.tolerance;
-	model.newton.maxIterations    = newton.maxIterations;
-	model.newton.lineSearchTrials = newton.lineSearchTrials;
-	model.newton.reuseFactor      = newton.reuseFactor;
-	model.newton.linearSolver     = linearMethod(newton.linearSolver);
-	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::ConstrainedBox<Dim>::ofAxis(model.grid) });
-	for (const auto& condition : conditions)
-		condition->hold(model);
-	return model;
-}
-
 template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division& division)
 {
 	vector<gimpm::Key> cells;
@@ -372,7 +333,6 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::Model<Dim>      emptyModel(const Analysis&, const Conditions<Dim>&);                                                                   \
 	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division&);                               \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
 	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \

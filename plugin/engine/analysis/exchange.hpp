@@ -11,9 +11,6 @@ namespace yade {
 // Refuses a number of a body of points that the grid does not have, at `where`.
 void requireBody(int body, int count, const string& where);
 
-// Settings of an analysis as a model of the core, with the nodes that its conditions constrain; without points, terms.
-template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
-
 // Cells with the centre of a point, in a row; of a division, those of all processes.
 template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division& = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
+#include "engine/analysis/empty_model.hpp"
 #include "engine/analysis/exchange.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/points/parallel.hpp"

@@ -4,6 +4,7 @@
 #include "core/grid/neighbourhood.hpp"
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/analysis/empty_model.hpp"
 #include "engine/analysis/exchange.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/common_state.hpp"
