@@ -121,7 +121,7 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>& system, const Eige
 	}
 }
 
-template <int Dim> void judgeFields(const StepSystem<Dim>& system, const Eigen::VectorXd& growth, StepReport& report)
+template <int Dim> void testFieldErrors(const StepSystem<Dim>& system, const Eigen::VectorXd& growth, StepReport& report)
 {
 	const State state = system.state(growth);
 	for (const auto* term : system.coupled())
@@ -129,11 +129,11 @@ template <int Dim> void judgeFields(const StepSystem<Dim>& system, const Eigen::
 			testError(error, report);
 }
 
-template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
+template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Eigen::VectorXd& d, StepReport& report)
 {
 	const Stopwatch       watch(report.times.update);
 	const Eigen::VectorXd displacements = system.map.displacements(d);
-	addReactionsBeyondWalls(system, cloud, load, displacements, report);
+	addReactionsBeyondWalls(system, displacements, report);
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, displacements, report);
@@ -150,8 +150,8 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                             \
-	template void judgeFields(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                \
-	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd&, StepReport&);
+	template void testFieldErrors(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                            \
+	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Eigen::VectorXd&, StepReport&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

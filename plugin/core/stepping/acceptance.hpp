@@ -12,11 +12,11 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>&, const Eigen::Vect
 void testError(const LocalError&, StepReport&);
 
 /// The same of what terms of several fields tell, after these have grown so much.
-template <int Dim> void judgeFields(const StepSystem<Dim>&, const Eigen::VectorXd& growth, StepReport&);
+template <int Dim> void testFieldErrors(const StepSystem<Dim>&, const Eigen::VectorXd& growth, StepReport&);
 
 /// Steps 5 and 6 of the method: the points take the displacements over, and the terms and walls what they remember;
 /// reactions of what lies behind walls and of walls are added. If a point cannot be where it would be the report says
 /// so, and nothing has changed.
-template <int Dim> bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
+template <int Dim> bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 } // namespace gimpm

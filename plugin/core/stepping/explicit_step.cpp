@@ -63,7 +63,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	report.times.linear.solve            = inertia.seconds();
 	if (inertia.isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision"), report;
 	// 5. nodes to points; 6. the grid is reset by not being kept
-	if (accept(system, cloud, load, d, report)) {
+	if (accept(system, cloud, d, report)) {
 		inertia.commit();
 		addInertiaBeyondWalls(system, motion, report);
 	}

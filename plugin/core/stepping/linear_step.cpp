@@ -4,13 +4,6 @@
 
 namespace gimpm {
 
-template <int Dim>
-LinearStep<Dim>::LinearStep(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
-        : system_(system), solver_(solver), report_(report), method_(system.model.newton.linearSolver)
-{
-	if (system.prescribed.any()) prescribed_ = system.prescribed;
-}
-
 /// Calls f for the unknowns that are solved for, the residuals of which are multiplied by the scale.
 template <int Dim> template <class F> void LinearStep<Dim>::forFree(F&& f) const
 {
@@ -20,21 +13,14 @@ template <int Dim> template <class F> void LinearStep<Dim>::forFree(F&& f) const
 			if (system_.dofs.number[i] >= 0) f(i, system_.dofs.number[i], map[field].scale);
 }
 
-template <int Dim>
-bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& couplingBlocks, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
+template <int Dim> bool LinearStep<Dim>::solve(const Residual<Dim>& at, const Eigen::VectorXd& caused, double forcing, Eigen::VectorXd& step)
 {
-	const Couplings* couplings = system_.isCoupled() ? &couplingBlocks : nullptr;
-	step                       = Eigen::VectorXd::Zero(system_.map.size());
-	if (prescribes()) {
-		const Eigen::VectorXd held = forcesOf(prescribed_, K, couplingBlocks);
-		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
-		step = prescribed_;
-		if (!system_.map.isAlone()) caused_ = held;
-		markPrescribedApplied();
-	}
 	if (system_.dofs.count == 0) return true;
+	const Couplings* couplings = system_.isCoupled() ? &at.couplingBlocks : nullptr;
+	Eigen::VectorXd  right     = at.values;
+	if (caused.size() > 0) forFree([&](int i, int number, double scale) { right[number] -= scale * caused[i]; });
 	const LinearProblem problem
-	        = system_.dofs.affineConstraints ? reduced(K, system_.dofs, couplings) : LinearProblem(K, system_.dofs, system_.ownedNodes(), couplings);
+	        = system_.dofs.affineConstraints ? reduced(at.K, system_.dofs, couplings) : LinearProblem(at.K, system_.dofs, system_.ownedNodes(), couplings);
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();
@@ -43,7 +29,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& couplingB
 	Eigen::VectorXd correction;
 	hasSigns_               = couplings && problem.isSymmetric();
 	const bool   isDefinite = problem.isSymmetric() && !problem.hasSigns();
-	const Status status     = solver_.solve(problem, withSigns(std::move(residual)), correction, method_, forcing);
+	const Status status     = solver_.solve(problem, withSigns(std::move(right)), correction, method_, forcing);
 	keepsFactor_            = status == (isDefinite ? Status::cholesky : Status::lu);
 	if (status != Status::iterative) {
 		method_ = LinearMethod::direct; // systems that could not be solved iteratively once stay difficult
@@ -55,20 +41,9 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& couplingB
 	return true;
 }
 
-template <int Dim> Eigen::VectorXd LinearStep<Dim>::forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& couplingBlocks) const
-{
-	Eigen::VectorXd forces = Eigen::VectorXd::Zero(growth.size());
-	K.multiplyAdd(growth, forces);
-	if (system_.isCoupled()) couplingBlocks.multiplyAdd(growth, forces);
-	system_.constraints.template condense<Dim>(system_.map, forces);
-	system_.completeForces(forces);
-	return forces;
-}
-
 template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step)
 {
 	Eigen::VectorXd correction;
-	step = Eigen::VectorXd::Zero(system_.map.size());
 	if (!solver_.solveAgain(withSigns(residual), correction)) return false;
 	addTo(step, correction);
 	return true;
@@ -84,7 +59,7 @@ template <int Dim> Eigen::VectorXd LinearStep<Dim>::withSigns(Eigen::VectorXd re
 	return residual;
 }
 
-template <int Dim> double LinearStep<Dim>::product(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const
+template <int Dim> double LinearStep<Dim>::work(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const
 {
 	double sum = 0;
 	forFree([&](int i, int number, double scale) { sum += step[i] / scale * force[number]; });

@@ -3,8 +3,8 @@
 #include "core/base/stopwatch.hpp"
 #include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
-#include "core/stepping/equilibrium.hpp"
 #include "core/stepping/lost_constraint.hpp"
+#include "core/stepping/newton.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -16,43 +16,32 @@
 namespace gimpm {
 namespace {
 
-/// Points that are loose stay where they are: no equilibrium determines where they go.
-template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& system, const Load<Dim>& load, StepReport& report)
+/// Fixes loose points where they are: no equilibrium determines where they go.
+template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& system, StepReport& report)
 {
 	report.loosePoints   = loose.points;
 	report.loosePosition = loose.position;
 	if (loose.points == 0) return;
-	system.fixNodes(loose.nodes, load);
+	system.fixNodes(loose.nodes);
 	report.dofs = system.dofs.count;
 }
 
 /// True if the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
-template <int Dim> bool isConstrained(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
+template <int Dim> bool isConstrained(StepSystem<Dim>& system, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
-	const std::string lost = system.hasInertia() ? "" : lostConstraint(cloud, system.basis, system.model, load);
-	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
-	report.parts           = held.parts;
-	keepStill(held.loose, system, load, report);
-	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
-		return !fail(report, Failure::misplaced, between);
+	const auto&       model = system.model;
+	const std::string lost  = system.hasInertia() ? "" : lostConstraint(system.cloud, system.basis, model, system.load);
+	const Restraint   held  = restraint(system.basis, model.grid, model.boundary, system.terms, *model.division);
+	report.parts            = held.parts;
+	keepStill(held.loose, system, report);
+	if (const std::string between = boxBetweenNodes(system.basis, model.boundary); !between.empty()) return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
 	if (isObstructed(system, report)) return false;
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
-/// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no
-/// longer holds the body: says so.
-template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
-{
-	if (report.converged()) return askForRefusals(system, d, report);
-	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
-	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
-	if (!held.freeMotion.empty())
-		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
-}
-
-/// Expected growth of several fields, by their rates: flow goes on where no load grows.
+/// Growth of several fields as expected from their rates: flow goes on where no load grows.
 template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& system)
 {
 	const auto expected = system.expected();
@@ -63,36 +52,53 @@ template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& syste
 	return system.map.joined(d);
 }
 
-template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
+/// Start of Newton's method from the step before, empty if that tells nothing.
+template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>* last)
 {
-	Eigen::VectorXd d = system.map.isAlone() ? predict(last, system.basis.nodes, growth, system.model.grid) : expectedOfFields(system);
+	if (!last || system.hasInertia()) return {};
+	Eigen::VectorXd d = system.map.isAlone() ? predict(*last, system.basis.nodes, system.load.growth(), system.model.grid) : expectedOfFields(system);
 	if (d.size() > 0) system.constraints.template distribute<Dim>(system.map, d);
 	return d;
 }
 
+/// Newton's method from the prediction, if there is one (not empty); should it fail from there, it begins again at
+/// zero. The solution is the same to the tolerance.
+template <int Dim> Eigen::VectorXd solve(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
+{
+	StepReport      attempt = report;
+	Eigen::VectorXd growth  = newton(system, solver, attempt, prediction);
+	if (attempt.predicted && !attempt.converged() && attempt.failure != Failure::interrupted) {
+		report.takeEffort(attempt);
+		return newton(system, solver, report, {});
+	}
+	report = std::move(attempt);
+	return growth;
+}
+
 /// Points that are loose but for a corner or an edge by which they hang on the rest leave a matrix that is singular, or
 /// nearly so. They are looked for where a step fails by it, and stay where they are, as others that are loose do.
-template <int Dim>
-Eigen::VectorXd equilibriumOfHeld(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction, const Load<Dim>& load)
+template <int Dim> Eigen::VectorXd solveWithoutHinged(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
 {
 	const StepReport before = report;
-	Eigen::VectorXd  growth = equilibrium(system, solver, report, prediction);
+	Eigen::VectorXd  growth = solve(system, solver, report, prediction);
 	if (report.converged() || !canBeCut(report.failure) || system.hasInertia()) return growth;
 	const Model<Dim>& model = system.model;
 	const LoosePoints loose = hinged(system.basis, model.grid, model.boundary, system.terms, *model.division);
 	if (loose.points <= before.loosePoints) return growth;
 	const StepReport attempt = std::exchange(report, before);
 	report.takeEffort(attempt);
-	keepStill(loose, system, load, report);
-	return equilibrium(system, solver, report, prediction);
+	keepStill(loose, system, report);
+	return solve(system, solver, report, prediction);
 }
 
-/// Goes on from d as long as the stabilisation takes up more of the work than it may, by the proximal point method.
-/// Where no stress can bear the load the body moves on by the same in each pass, and the share does not fall.
-template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, Eigen::VectorXd growth)
+/// Solves for equilibrium, and goes on from there as long as the stabilisation takes up more of the work than it may, by
+/// the proximal point method. Where no stress can bear the load the body moves on by the same in each pass, and the
+/// ratio of work does not fall.
+template <int Dim> Eigen::VectorXd equilibrium(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
 {
 	constexpr int    few       = 10;
 	constexpr double falling   = 0.8; // in so many passes
+	Eigen::VectorXd  growth    = solveWithoutHinged(system, solver, report, prediction);
 	const bool       predicted = report.predicted;
 	for (double before = std::numeric_limits<double>::infinity(); report.converged() && report.ghostShare > system.model.ghost.workTolerance;
 	     ++report.passes) {
@@ -104,17 +110,42 @@ template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolve
 			before = report.ghostShare;
 		}
 		system.ghostReference = growth;
-		growth                = equilibrium(system, solver, report, growth);
+		growth                = solve(system, solver, report, growth);
 		report.predicted      = predicted;
 	}
 	return growth;
 }
 
-/// Increment of the nodes that are not tied.
-template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system, const Eigen::VectorXd& d, double growth)
+/// Reviews a solution: a converged step may have ended where a term does not admit it, or with an error above its
+/// tolerance. One that has not may be due to contact which no longer holds the body. The report says so.
+template <int Dim>
+void review(const StepSystem<Dim>& system, const Eigen::VectorXd& growth, const LastIncrement<Dim>* last, const Eigen::VectorXd& prediction, StepReport& report)
 {
-	if (system.basis.affineConstraints.empty()) return { system.basis.nodes, d, growth };
-	LastIncrement<Dim> last { {}, Eigen::VectorXd(d.size()), growth };
+	const Model<Dim>&     model = system.model;
+	const Eigen::VectorXd d     = system.map.displacements(growth);
+	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) {
+		if (report.converged()) askForRefusals(system, d, report);
+		else if (report.failure == Failure::singular || canBeCut(report.failure)) {
+			const Restraint held = restraintAt(d, system.basis, model.grid, model.boundary, system.terms, *model.division);
+			if (!held.freeMotion.empty())
+				fail(report, Failure::slides,
+				     "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
+		}
+	}
+	if (!std::isfinite(model.newton.stepTolerance)) return;
+	if (report.converged() && prediction.size() > 0 && system.map.isAlone()) {
+		const Stopwatch watch(report.times.update);
+		testError(rateChange(system, *last, system.load.growth(), prediction, d), report);
+	}
+	if (report.converged()) testFieldErrors(system, growth, report);
+}
+
+/// Increment of the nodes that are not tied.
+template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system, const Eigen::VectorXd& growth)
+{
+	const Eigen::VectorXd d = system.map.displacements(growth);
+	if (system.basis.affineConstraints.empty()) return { system.basis.nodes, d, system.load.growth() };
+	LastIncrement<Dim> last { {}, Eigen::VectorXd(d.size()), system.load.growth() };
 	for (int n = 0; n < int(system.basis.nodes.size()); ++n) {
 		if (system.basis.affineConstraints.contains(n)) continue;
 		last.displacement.template segment<Dim>(Dim * last.nodes.size()) = d.template segment<Dim>(Dim * n);
@@ -126,33 +157,34 @@ template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system,
 
 } // namespace
 
+/// Steps of the method (Coombs 2023, section 2), for points p, nodes v and growth d at the nodes:
+///
+///     1. S_vp, grad S_vp at the points; faces of boundary cells and their K_g (eq. 2, terms/ghost.hpp)
+///     2. f_ext = sum_p S_vp (m_p g + f_p)
+///     3. r(d) = f_ext - sum_p grad S_vp sigma_p(d) V_p(d) - K_g d - other terms, at the nodes of populated cells
+///     4. r(d) = 0 by Newton's method (newton.cpp)
+///     5. x_p += sum_v S_vp d_v, F_p = (1 + sum_v d_v grad S_vp) F_p, elastic strain, stress and domain of p
+///     6. the next step begins with the grid as it was
 template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver, LastIncrement<Dim>* last)
 {
 	StepReport report;
 	solver.resetTimes();
 	const Halo halo(cloud, *model.division, [&] { return pointsForOthers(cloud, model); });
-	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
+	// 1. to 3. basis functions, populated cells and ghost faces; points to nodes; equations of the populated nodes
 	StepSystem<Dim> system(cloud, model, load, report);
-	if (!isConstrained(system, cloud, load, report)) return report;
-	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const bool            predicts   = last && !system.hasInertia();
-	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
+	if (!isConstrained(system, report)) return report;
+	// 4. displacements of the nodes, and growth of other fields, that satisfy the equations
+	const Eigen::VectorXd prediction = predictionFor(system, last);
 	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostReference = model.ghost.memory * prediction;
-	const Eigen::VectorXd growth = relieved(system, solver, report, equilibriumOfHeld(system, solver, report, prediction, load));
-	const Eigen::VectorXd d      = system.map.displacements(growth);
-	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
-	if (report.converged() && prediction.size() > 0 && system.map.isAlone() && std::isfinite(model.newton.stepTolerance)) {
-		const Stopwatch watch(report.times.update);
-		testError(rateChange(system, *last, load.growth(), prediction, d), report);
-	}
-	if (report.converged() && std::isfinite(model.newton.stepTolerance)) judgeFields(system, growth, report);
+	const Eigen::VectorXd growth = equilibrium(system, solver, report, prediction);
+	review(system, growth, last, prediction, report);
 	report.times.linear       = solver.times();
 	report.conjugateGradients = solver.iterativeEffort();
+	report.accepted           = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	// 5. nodes to points; 6. the grid is reset by not being kept
-	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
-	if ((report.converged() || report.accepted) && accept(system, cloud, load, growth, report)) {
+	if ((report.converged() || report.accepted) && accept(system, cloud, growth, report)) {
 		if (system.inertia) addInertiaBeyondWalls(system, system.inertia->motion(), report);
-		if (last) *last = incrementOf(system, d, load.growth());
+		if (last) *last = incrementOf(system, growth);
 	}
 	return report;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Equilibrium of every part of the body: out-of-balance forces against the forces that act where they are.
 #pragma once
-#include "core/stepping/balance.hpp"
+#include "core/stepping/elastic_forces.hpp"
 
 namespace gimpm {
 

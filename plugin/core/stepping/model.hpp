@@ -26,7 +26,7 @@ struct GhostSettings {
 	/// Filled part of a cell below which it is ill-filled: then it is tied to others, and other faces keep
 	/// `elsewhere` of their stiffness (core/terms/aggregates.hpp). 0: all faces alike.
 	double threshold = 0;
-	/// Part of the work of a static step (ghost_share.hpp) that it may take up. Where it is more, jumps of the
+	/// Part of the work of a static step (ghostWorkRatio) that it may take up. Where it is more, jumps of the
 	/// gradient that have been reached cost nothing, and the step goes on from there; and so on, until stress in
 	/// the points bears the rest. 1: no limit.
 	double workTolerance = 1;

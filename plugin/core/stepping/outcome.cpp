@@ -21,11 +21,11 @@ bool fail(StepReport& report, const PointFailure& failure)
 	return fail(report, Failure::inverted, "a material point was turned inside out (det F <= 0)");
 }
 
-std::string causeOfStall(const Convergence& convergence, double tolerance)
+std::string causeOfStall(double residual, double attained, double tolerance)
 {
-	const double attainable = std::pow(10, std::ceil(std::log10(2 * convergence.attained())));
+	const double attainable = std::pow(10, std::ceil(std::log10(2 * attained)));
 	return sentence(
-	        "the residual stays at ", convergence.residual(), ", which is round-off here, above the tolerance ", tolerance,
+	        "the residual stays at ", residual, ", which is round-off here, above the tolerance ", tolerance,
 	        "; what can be attained is a tolerance of about ", attainable);
 }
 
@@ -62,19 +62,21 @@ template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& 
 template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& couplingBlocks, StepReport& report)
 {
 	if (isObstructed(system, report)) return false;
-	const auto failure = system.tangent(K, &couplingBlocks);
+	Eigen::VectorXd force;
+	system.prepare(K, &couplingBlocks);
+	const auto failure = system.evaluate(Eigen::VectorXd::Zero(system.map.size()), force, &K, nullptr, &couplingBlocks);
 	return !failure || !fail(report, *failure);
 }
 
-template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance& balance, StepReport& report)
+template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Residual<Dim>& residual, StepReport& report)
 {
-	if (balance.worst < 0) return;
+	if (residual.worst < 0) return;
 	report.worst.position.setZero();
-	const int field = system.map.fieldOf(balance.worst), inField = balance.worst - system.map.begin(field), width = system.map[field].width;
+	const int field = system.map.fieldOf(residual.worst), inField = residual.worst - system.map.begin(field), width = system.map[field].width;
 	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[inField / width]));
 	report.worst.axis                          = field == 0 ? inField % width : -1;
 	report.worst.field                         = field == 0 ? "" : system.map[field].name;
-	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]] / system.map[field].scale;
+	report.worst.force                         = residual.values[system.dofs.number[residual.worst]] / system.map[field].scale;
 }
 
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, const Eigen::VectorXd& force)
@@ -99,15 +101,36 @@ template <int Dim> Vec3 looseForce(const StepSystem<Dim>& system, const Eigen::V
 	return sum;
 }
 
+template <int Dim> double ghostWorkRatio(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& force)
+{
+	// Forces of the stabilisation below this part of the largest nodal force from outside are none: where hardly
+	// anything moves, as in a step of rest, they may be most of what little work there is.
+	constexpr double leastGhostForce = 0.02;
+	if (system.hasInertia() || !system.map.isAlone()) return std::numeric_limits<double>::quiet_NaN();
+	if (system.model.ghost.factor == 0) return 0;
+	const Eigen::VectorXd ofGhost = system.ghostForce(d);
+	if (ofGhost.template lpNorm<Eigen::Infinity>() <= leastGhostForce * system.external.template lpNorm<Eigen::Infinity>()) return 0;
+	const Eigen::VectorXd ofPoints = force - system.otherForces(d) - ofGhost;
+	double                byGhost = 0, byPoints = 0;
+	for (Eigen::Index i = 0; i < d.size(); ++i) {
+		if (ofGhost[i] == 0) continue; // no face is there
+		byGhost += d[i] * ofGhost[i];
+		byPoints += std::abs(d[i] * ofPoints[i]);
+	}
+	return byGhost == 0 ? 0 : std::abs(byGhost) / (std::abs(byGhost) + byPoints);
+}
+
 template bool              isObstructed(const StepSystem<2>&, StepReport&);
 template bool              isObstructed(const StepSystem<3>&, StepReport&);
 template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, Couplings&, StepReport&);
 template bool              tangent(const StepSystem<3>&, NodeMatrix<3>&, Couplings&, StepReport&);
-template void              reportWorst(const StepSystem<2>&, const Balance&, StepReport&);
-template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
+template void              reportWorst(const StepSystem<2>&, const Residual<2>&, StepReport&);
+template void              reportWorst(const StepSystem<3>&, const Residual<3>&, StepReport&);
 template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);
 template std::vector<Vec3> reactions(const StepSystem<3>&, const Eigen::VectorXd&);
 template Vec3              looseForce(const StepSystem<2>&, const Eigen::VectorXd&);
 template Vec3              looseForce(const StepSystem<3>&, const Eigen::VectorXd&);
+template double            ghostWorkRatio(const StepSystem<2>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+template double            ghostWorkRatio(const StepSystem<3>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 
 } // namespace gimpm

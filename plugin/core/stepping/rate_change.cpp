@@ -37,7 +37,7 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 {
 	const auto& materials = system.model.materials;
 	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return m.law->isElastic; })) return 0;
-	std::vector<double>         volume = system.context().cloud.volume0;
+	std::vector<double>         volume = system.cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
 	forUpdatedPoints(

@@ -64,7 +64,7 @@ struct StepReport {
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
 
-	double ghostShare = std::numeric_limits<double>::quiet_NaN(); ///< part of the work of the step (ghost_share.hpp), NaN if it is not known
+	double ghostShare = std::numeric_limits<double>::quiet_NaN(); ///< part of the work of the step (ghostWorkRatio), NaN if it is not known
 	int    passes     = 0;                                        ///< in which the stabilisation was relieved (GhostSettings::workTolerance)
 
 	StepTimes times;

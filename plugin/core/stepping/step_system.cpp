@@ -58,8 +58,8 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& clou
 }
 
 template <int Dim>
-StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
-        : model(m), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
+StepSystem<Dim>::StepSystem(const PointCloud<Dim>& c, const Model<Dim>& m, const Load<Dim>& l, StepReport& report)
+        : cloud(c), model(m), load(l), stiffnessOf_(stiffnessOf(c, m))
 {
 	{
 		const Stopwatch watch(report.times.basis);
@@ -77,8 +77,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	const Stopwatch watch(report.times.basis);
 	owned_ = std::make_unique<OwnedParts<Dim>>(*model.processes, basis, faces, *model.division);
 	gimpm::complete(owned_->knownNodes(), map, external);
-	constrainNodes(load);
-	makeTerms(load);
+	constrainNodes();
+	makeTerms();
 	report.nodes              = int(basis.nodes.size());
 	report.dofs               = dofs.count;
 	report.populatedCells     = int(basis.populatedLeaves().size());
@@ -96,7 +96,7 @@ template <int Dim> void StepSystem<Dim>::mapFields()
 	before_.resize(map.fields());
 }
 
-template <int Dim> void StepSystem<Dim>::constrainNodes(const Load<Dim>& load)
+template <int Dim> void StepSystem<Dim>::constrainNodes()
 {
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
@@ -111,18 +111,18 @@ template <int Dim> void StepSystem<Dim>::constrainNodes(const Load<Dim>& load)
 				constraints.free(int(Dim * n + a));
 		}
 	for (int f = 1; f < map.fields(); ++f)
-		constrainField(f, model.fields[f - 1].begin(cloud_, basis, model.grid));
+		constrainField(f, model.fields[f - 1].begin(cloud, basis, model.grid));
 	constraints.template distribute<Dim>(map, constraints.prescribed);
 	if (!map.isAlone()) ofDisplacements_ = constraints.ofDisplacements(map);
 }
 
-template <int Dim> void StepSystem<Dim>::fixNodes(const std::vector<int>& nodes, const Load<Dim>& load)
+template <int Dim> void StepSystem<Dim>::fixNodes(const std::vector<int>& nodes)
 {
 	isStill_.assign(basis.nodes.size(), false);
 	for (const int node : nodes)
 		isStill_[node] = true;
 	constraints.reset(map, basis.affineConstraints);
-	constrainNodes(load);
+	constrainNodes();
 }
 
 template <int Dim> void StepSystem<Dim>::constrainField(int field, const FieldStart& start)
@@ -151,14 +151,14 @@ template <int Dim> void StepSystem<Dim>::resistPoints()
 	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(owned_->faces(), model.grid.cellSize, ghostReference));
 }
 
-template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
+template <int Dim> void StepSystem<Dim>::makeTerms()
 {
 	resistPoints();
 	for (const auto& [box, wall] : model.walls)
 		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid, *model.division));
 	imbalance_ = [this, earlier = load.before()] {
 		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
-		addPointForces(basis, pointForces(cloud_, model, earlier), before);
+		addPointForces(basis, pointForces(cloud, model, earlier), before);
 		for (const auto& term : terms)
 			term->addBefore(resistance);
 		if (isCoupled()) addCoupledBefore(resistance);
@@ -195,21 +195,6 @@ template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K, Couplings* 
 	couplingBlocks->reset(map, isSymmetric());
 	for (const auto* term : coupled_)
 		term->markCouplings(*couplingBlocks);
-}
-
-template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
-{
-	NodeMatrix<Dim> K;
-	Couplings       couplingBlocks;
-	tangent(K, &couplingBlocks);
-	return reduced(K, dofs, isCoupled() ? &couplingBlocks : nullptr);
-}
-
-template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks) const
-{
-	Eigen::VectorXd force;
-	prepare(K, couplingBlocks);
-	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, couplingBlocks);
 }
 
 template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const AssembledTerms<Dim>& sum) const

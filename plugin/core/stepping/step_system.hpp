@@ -19,7 +19,9 @@ template <int Dim> struct StepSystem {
 	StepSystem(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, StepReport&);
 	StepSystem(const StepSystem&) = delete; // the terms refer to what is here
 
+	const PointCloud<Dim>&      cloud; ///< points as the step begins
 	const Model<Dim>&           model;
+	const Load<Dim>             load;
 	CloudBasis<Dim>             basis;
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
@@ -35,7 +37,7 @@ template <int Dim> struct StepSystem {
 	Eigen::VectorXd        inertialPredictor; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	/// None of them moves, whatever holds them or not; before Newton's method.
-	void fixNodes(const std::vector<int>& nodes, const Load<Dim>&);
+	void fixNodes(const std::vector<int>& nodes);
 	bool isStill(int node) const { return !isStill_.empty() && isStill_[node]; }
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< number of displacements
@@ -59,10 +61,6 @@ template <int Dim> struct StepSystem {
 
 	/// Sets K up for evaluate(), and what is beside it: pattern and zeros.
 	void prepare(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const;
-
-	/// Reduced tangent of all terms at the start of the step.
-	LinearProblem               tangent() const;
-	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* couplingBlocks = nullptr) const; ///< tangent of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the absolute contributions of the forces where they are
 	/// given. Of K only the share is right, rows and columns. Forces at tied nodes are given to their masters; of K
@@ -104,11 +102,10 @@ template <int Dim> struct StepSystem {
 	StepContext<Dim> context() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
-		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, owned_->knownNodes(), *model.division };
+		return { cloud, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, owned_->knownNodes(), *model.division };
 	}
 
 private:
-	const PointCloud<Dim>&           cloud_;
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
 	std::unique_ptr<OwnedParts<Dim>> owned_;
@@ -122,9 +119,9 @@ private:
 	Eigen::VectorXd sumOf(std::size_t first, std::size_t count, const Eigen::VectorXd& d) const;
 
 	void                        mapFields();
-	void                        makeTerms(const Load<Dim>&);
+	void                        makeTerms();
 	void                        resistPoints();
-	void                        constrainNodes(const Load<Dim>&);
+	void                        constrainNodes();
 	void                        constrainField(int field, const FieldStart&);
 	void                        addCoupledBefore(Eigen::VectorXd& resistance) const;
 	Eigen::VectorXd             completed(Eigen::VectorXd force) const;

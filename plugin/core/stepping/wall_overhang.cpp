@@ -147,8 +147,7 @@ template <int Dim> void keepBeforeWalls(PointCloud<Dim>& cloud, const PointCloud
 	}
 }
 
-template <int Dim>
-void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
+template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	const CutPatches<Dim> cut(system);
 	Eigen::VectorXd       displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
@@ -156,7 +155,7 @@ void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim
 		const double part           = system.model.atMiddle ? 0.5 : 1; // same part in InternalForceAtMiddle
 		displacement.head(d.size()) = part * d;
 		addInternalForce<Dim>(cut.basis, cut.basis.colours, cut.points, system.model.materials, displacement, { internal }, part);
-		addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
+		addPointForces(cut.basis, pointForces(system.cloud, system.model, system.load), external);
 	}
 	addForces(cut, system, Eigen::VectorXd(internal - external), report);
 }
@@ -179,7 +178,7 @@ template void keepBeforeWalls(PointCloud<2>&, const PointCloud<2>&, const StepSy
 template void keepBeforeWalls(PointCloud<3>&, const PointCloud<3>&, const StepSystem<3>&, const Eigen::VectorXd&);
 template void addInertiaBeyondWalls(const StepSystem<2>&, const Motion<2>&, StepReport&);
 template void addInertiaBeyondWalls(const StepSystem<3>&, const Motion<3>&, StepReport&);
-template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, StepReport&);
-template void addReactionsBeyondWalls(const StepSystem<3>&, const PointCloud<3>&, const Load<3>&, const Eigen::VectorXd&, StepReport&);
+template void addReactionsBeyondWalls(const StepSystem<2>&, const Eigen::VectorXd&, StepReport&);
+template void addReactionsBeyondWalls(const StepSystem<3>&, const Eigen::VectorXd&, StepReport&);
 
 } // namespace gimpm

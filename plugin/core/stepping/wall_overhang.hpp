@@ -10,7 +10,7 @@ namespace gimpm {
 /// holding them in place in all directions. Adds the forces that hold them to the reactions of the walls, so that
 /// reactions and loads are in balance. A component along which a wall's own nodes are free goes to the box that makes
 /// the wall, or to the open box.
-template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
+template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 /// A domain moves by averages over all of it, of which the part behind a wall counts as still: a centre that is carried
 /// to the wall could pass it, and would be alone behind it. One that has moved so since `before` moves by the functions

@@ -110,7 +110,7 @@ namespace {
 		});
 		StepReport            report;
 		const StepSystem<Dim> system(body.cloud, body.model, Load<Dim>(), report);
-		const LinearProblem   K = system.tangent();
+		const LinearProblem   K = tangentStiffness(system.cloud, system.model);
 		NodalMass<Dim>        M(system.basis, body.motion->mass, massFaces(*body.motion, system.context()), 1);
 		Eigen::VectorXd       x = Random().vector(K.size()), y = x;
 		double                square = 0;

@@ -119,7 +119,7 @@ namespace {
 		LoosePoints     loose = restraint(system.basis, model.grid, model.boundary, system.terms, *model.division).loose;
 		if (loose.points != loosePoints) loose = hinged(system.basis, model.grid, model.boundary, system.terms, *model.division);
 		ASSERT_EQ(loose.points, loosePoints);
-		if (loosePoints > 0) system.fixNodes(loose.nodes, load); // same as in a step
+		if (loosePoints > 0) system.fixNodes(loose.nodes); // same as in a step
 		ASSERT_EQ(d.size(), system.nodalSize());
 		const auto [residual, forces]  = balance(system, d);
 		const auto [imbalance, loaded] = balance(system, Eigen::VectorXd(Eigen::VectorXd::Zero(d.size())));

@@ -160,7 +160,7 @@ namespace {
 		const StepSystem<Dim> system(scene.cloud, scene.model, {}, report);
 		auto                  cloud = scene.cloud;
 		report.accepted             = true;
-		ASSERT_TRUE(accept(system, cloud, {}, scene.d, report));
+		ASSERT_TRUE(accept(system, cloud, scene.d, report));
 		for (std::size_t p = 0; p < cloud.size(); ++p) {
 			EXPECT_NEAR(cloud.volumeRatio(p), cloud.volumeRatio(0), 1e-12);
 			EXPECT_NEAR(std::log(cloud.volumeRatio(p)), cloud.elasticStrain[p].full().trace(), 1e-9);
