@@ -74,12 +74,20 @@ private:
 
 /// Tests the iterates one after the other. With the tolerance t,
 ///
-///     |r| <= t |external forces + reactions|        of the whole body (Residual::relative)
-///     |r| <= localTolerance t |forces|              around each node (Residual::local), when the whole is in balance
+///     |r| <= t |f_ext + reactions|        of the whole body (Residual::relative)
+///     |r| <= localTolerance t |forces|    around each node (Residual::local), when the whole is in balance
+///
+/// after at least one solve. The iteration fails where r is no number, has come down to round-off, or after as many solves
+/// as are allowed.
 template <int Dim> class ConvergenceTest {
 public:
 	/// All are kept by reference.
-	ConvergenceTest(const StepSystem<Dim>& system, Residual<Dim>& residual, StepReport& report) : system_(system), residual_(residual), report_(report) { }
+	ConvergenceTest(const StepSystem<Dim>& system, Residual<Dim>& residual, StepReport& report)
+	        : history(system.model.newton.tolerance, system.model.newton.reuseFactor), system_(system), residual_(residual), report_(report)
+	{
+	}
+
+	ConvergenceHistory history;
 
 	/// True if the iterate at d is the last one: it has converged, or the report says why not. `isComplete`: d has
 	/// the prescribed growth.
@@ -131,9 +139,6 @@ private:
 	const NewtonSettings&  settings_         = system_.model.newton;
 	int                    solves_           = -1;
 	bool                   isWholeInBalance_ = false;
-
-public:
-	ConvergenceHistory history { settings_.tolerance, settings_.reuseFactor };
 };
 
 } // namespace gimpm

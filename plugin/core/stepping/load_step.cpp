@@ -91,8 +91,8 @@ template <int Dim> Eigen::VectorXd solveWithoutHinged(StepSystem<Dim>& system, L
 	return solve(system, solver, report, prediction);
 }
 
-/// Solves for equilibrium, and goes on from there as long as the stabilisation takes up more of the work than it may, by
-/// the proximal point method. Where no stress can bear the load the body moves on by the same in each pass, and the
+/// Solves for equilibrium, and goes on from there as long as the stabilisation takes up more of the work than it may,
+/// by the proximal point method. Where no stress can bear the load the body moves on by the same in each pass, and the
 /// ratio of work does not fall.
 template <int Dim> Eigen::VectorXd equilibrium(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
 {

@@ -84,17 +84,19 @@ template <class F> Shortened lineSearch(const NewtonStep& step, int trials, F&& 
 	return { low > 0 && atLow < -atHigh ? low : high, trials };
 }
 
-/// Order of evaluation, with prescribed growth p:
+/// Order of evaluation, for free unknowns u and prescribed ones p, the growth of which enters with the first solve:
 ///
-///     d = 0, the inertial predictor, or the prediction               start
-///     r = f_ext - f(d), K = df/dd                                    Residual::evaluate
-///     until |r| <= tolerance |f_ext + reactions|, and so around each node, or it fails     ConvergenceTest
-///         s = K_last^-1 r, where the last factor is enough           reuseFactor
-///             d += s if that reduces |r|
-///         or  s_f = K_ff^-1 (r - K_fp p), s_p = p (first solve)      correct
-///             r, K at d + s
-///             d += s if r.s > -1/2 (r.s before), or the watchdog admits full steps
-///             or a part of it with |r.s| <= 1/2 (r.s before)         shorten
+///     start           d = 0, the inertial predictor, or the prediction
+///                     r = f_ext - f(d), K = df/dd
+///     ConvergenceTest until |r| <= tolerance |f_ext + reactions|, and the like around each node, or it fails
+///     reuseFactor         s = K_last^-1 r, where the last factor is expected to be enough
+///                         r at d + s
+///                         d = d + s, next iterate, if |r| is smaller there
+///     correct             s_p = prescribed growth, first time, else 0;  s_u = K_uu^-1 (r - K_up s_p)
+///                         r, K at d + s
+///                         d = d + s, if (r.s at d + s) > -1/2 (r.s at d)
+///     Watchdog            or all the same, as long as the next steps bring |r| down quickly
+///     shorten             or d = d + a s, where |r.s at d + a s| <= 1/2 (r.s at d), with 0 < a < 1
 template <int Dim> class Newton {
 public:
 	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report) : system_(system), report_(report), linear_(system, solver, report) { }

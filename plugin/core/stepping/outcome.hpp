@@ -5,8 +5,8 @@
 
 namespace gimpm {
 
-/// Factor of the tolerance for the residual around a node over the forces there: where the whole consists of one kind of
-/// soil its norm shall decide.
+/// Factor of the tolerance for the residual around a node over the forces there: where the whole consists of one kind
+/// of soil its norm shall decide.
 constexpr double localTolerance = 3;
 
 /// Notes the failure; true, as the iteration is over.
