@@ -77,8 +77,8 @@ private:
 ///     |r| <= t |f_ext + reactions|        of the whole body (Residual::relative)
 ///     |r| <= localTolerance t |forces|    around each node (Residual::local), when the whole is in balance
 ///
-/// after at least one solve. The iteration fails where r is no number, has come down to round-off, or after as many solves
-/// as are allowed.
+/// after at least one solve. The iteration fails where r is no number, has come down to round-off, or after as many
+/// solves as are allowed.
 template <int Dim> class ConvergenceTest {
 public:
 	/// All are kept by reference.

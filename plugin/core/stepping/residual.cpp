@@ -131,15 +131,6 @@ template <int Dim> double Residual<Dim>::relativeOf(int field, bool isSolved) co
 	return part.norm / std::max({ part.reference, scale.initial, vanish ? scale.entering : 0 });
 }
 
-template <int Dim> double Residual<Dim>::local(const Eigen::VectorXd& d, double enough)
-{
-	const Stopwatch watch(report_.times.assembly);
-	Eigen::VectorXd again;
-	if (!hasContributions_) system_.evaluate(d, again, nullptr, &contributions_);
-	hasContributions_ = true;
-	return local_.ratio(values, contributions_, d, enough, caused_);
-}
-
 template <int Dim> bool Residual<Dim>::isRoundOff(const Eigen::VectorXd& d) const
 {
 	const double motion = elastic_.strainOf(d);

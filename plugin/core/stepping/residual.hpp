@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Residual r(d) = f_ext - sum of the terms at d, and the forces that it is compared with.
 #pragma once
-#include "core/stepping/local_balance.hpp"
+#include "core/stepping/elastic_forces.hpp"
 
 namespace gimpm {
 
@@ -34,8 +34,11 @@ public:
 	/// the absolute contributions of all that enters or leaves at the nodes.
 	double relative(bool isSolved) const;
 
-	/// Largest |r| around a node over the forces there (LocalBalance), at d, where the last evaluation was; exact
-	/// if above `enough`.
+	/// Largest |r| around a node over the forces there (local_residual.cpp), at d, where the last evaluation was,
+	/// if that is above `enough`; else an upper bound of it. One norm over the whole body does not see a soft or
+	/// lightly loaded part beside a stiff or strongly loaded one. A node and its neighbours are taken together: a
+	/// node that the body hardly touches has next to no forces of its own, and each node of a soft part has some
+	/// neighbourhood that reaches no stiff one.
 	double local(const Eigen::VectorXd& d, double enough);
 
 	/// True if |r| is no more than round-off of d and of the strains at the start of the step may leave.
@@ -65,10 +68,14 @@ private:
 	double normOf(int field, const Eigen::VectorXd& all) const;
 	double relativeOf(int field, bool isSolved) const;
 
+	double          localOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& d, double enough) const;
+	double          localOf(int field, const Eigen::VectorXd& nodal, const Eigen::VectorXd& roundOff) const;
+	Eigen::VectorXd around(const Eigen::VectorXd& ofNode) const;
+	double          largestStrain(const Eigen::VectorXd& d) const;
+
 	const StepSystem<Dim>& system_;
 	StepReport&            report_;
 	ElasticForces<Dim>     elastic_ { system_ };
-	LocalBalance<Dim>      local_ { system_, K };
 	std::vector<Part>      parts_;                    // by field
 	std::vector<Scale>     scales_;                   // by field
 	double                 vanishing_ = 0;            // round-off of displacements [N]

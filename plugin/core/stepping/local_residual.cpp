@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/local_balance.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/stepping/residual.hpp"
 
 namespace gimpm {
 namespace {
@@ -39,42 +40,44 @@ double largestRatio(const Eigen::VectorXd& residual, const Eigen::VectorXd& forc
 
 } // namespace
 
-template <int Dim>
-double LocalBalance<Dim>::ratio(
-        const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough,
-        const Eigen::VectorXd& caused) const
+/// The forces around a node are the absolute contributions of the terms and the external ones; where these are too
+/// small, as after unloading, also those of the stresses at the start of the step and those that prescribed
+/// displacements can cause. Round-off of d is no residual. Of several fields the least balanced one counts.
+template <int Dim> double Residual<Dim>::local(const Eigen::VectorXd& d, double enough)
 {
-	Eigen::VectorXd nodal = Eigen::VectorXd::Zero(d.size());
+	const Stopwatch watch(report_.times.assembly);
+	Eigen::VectorXd again, nodal = Eigen::VectorXd::Zero(d.size());
+	if (!hasContributions_) system_.evaluate(d, again, nullptr, &contributions_);
+	hasContributions_ = true;
 	for (int i = 0; i < nodal.size(); ++i)
-		if (system_.dofs.number[i] >= 0) nodal[i] = residual[system_.dofs.number[i]];
-	double largest = ratioOfDisplacements(nodal, absoluteContributions, d, enough);
+		if (system_.dofs.number[i] >= 0) nodal[i] = values[system_.dofs.number[i]];
+	double largest = localOfDisplacements(nodal, d, enough);
 	for (int field = 1; field < system_.map.fields(); ++field)
-		largest = std::max(
-		        largest,
-		        ratioOf(field, nodal, caused.size() > 0 ? Eigen::VectorXd(absoluteContributions + caused) : absoluteContributions,
-		                system_.roundOff(d)));
+		largest = std::max(largest, localOf(field, nodal, system_.roundOff(d)));
 	return largest;
 }
 
-/// Flows are compared with the largest one in all, as strains are.
-template <int Dim>
-double LocalBalance<Dim>::ratioOf(
-        int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& roundOff) const
+/// Flows are compared with the largest one in all, as strains are, and with what prescribed growth causes.
+template <int Dim> double Residual<Dim>::localOf(int field, const Eigen::VectorXd& nodal, const Eigen::VectorXd& roundOff) const
 {
-	const auto lengths = [&](const Eigen::VectorXd& nodal) {
+	const auto lengths = [&](const Eigen::VectorXd& all) {
 		const int width = system_.map[field].width;
 		return Eigen::VectorXd(
-		        Eigen::Map<const Eigen::MatrixXd>(nodal.data() + system_.map.begin(field), width, system_.map.nodes()).colwise().template lpNorm<1>());
+		        Eigen::Map<const Eigen::MatrixXd>(all.data() + system_.map.begin(field), width, system_.map.nodes()).colwise().template lpNorm<1>());
 	};
-	const Eigen::VectorXd left = around(lengths(residual)) / system_.map[field].scale, there = around(lengths(absoluteContributions));
+	const Eigen::VectorXd forces = caused_.size() > 0 ? Eigen::VectorXd(contributions_ + caused_) : contributions_;
+	const Eigen::VectorXd left = around(lengths(nodal)) / system_.map[field].scale, there = around(lengths(forces));
 	return largestRatio((left - around(lengths(roundOff))).cwiseMax(0), there.array() + negligible * there.maxCoeff());
 }
 
-template <int Dim>
-double LocalBalance<Dim>::ratioOfDisplacements(
-        const Eigen::VectorXd& nodal, const Eigen::VectorXd& absoluteContributions, const Eigen::VectorXd& d, double enough) const
+template <int Dim> double Residual<Dim>::localOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& d, double enough) const
 {
-	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(absoluteContributions + system_.external.cwiseAbs()));
+	// Lengths of the displacements, or forces, at the nodes.
+	const auto lengths = [&](const Eigen::VectorXd& all) {
+		return Eigen::VectorXd(
+		        Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(all.data(), Dim, system_.map.nodes()).colwise().template lpNorm<1>());
+	};
+	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(contributions_ + system_.external.cwiseAbs()));
 	const double          found = largestRatio(left, there);
 	if (found <= enough) return found;
 	const double          strain = negligible * largestStrain(d) + elastic_.prescribedStrain(), motion = elastic_.strainOf(d);
@@ -84,35 +87,29 @@ double LocalBalance<Dim>::ratioOfDisplacements(
 	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 
-/// Lengths of the displacements, or forces, at the nodes.
-template <int Dim> Eigen::VectorXd LocalBalance<Dim>::lengths(const Eigen::VectorXd& nodal) const
-{
-	return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(nodal.data(), Dim, system_.map.nodes()).colwise().template lpNorm<1>();
-}
-
 /// Sums over the nodes and their neighbours.
-template <int Dim> Eigen::VectorXd LocalBalance<Dim>::around(const Eigen::VectorXd& ofNode) const
+template <int Dim> Eigen::VectorXd Residual<Dim>::around(const Eigen::VectorXd& ofNode) const
 {
 	Eigen::VectorXd sum = ofNode;
-	forNeighbours(K_, [&](int a, int b) { sum[a] += ofNode[b], sum[b] += ofNode[a]; });
+	forNeighbours(K, [&](int a, int b) { sum[a] += ofNode[b], sum[b] += ofNode[a]; });
 	return sum;
 }
 
-/// Before the step, or of the displacements d.
-template <int Dim> double LocalBalance<Dim>::largestStrain(const Eigen::VectorXd& d) const
+/// Largest strain before the step, and of the displacements d.
+template <int Dim> double Residual<Dim>::largestStrain(const Eigen::VectorXd& d) const
 {
 	double before = 0, difference = 0;
 	for (int i = 0; i < int(system_.points.volume0.size()); ++i)
 		before = std::max(before, elastic_.strainAtStart(i));
 	before = system_.model.division->largest(before);
-	forNeighbours(K_, [&](int a, int b) {
-		const int cells = 1 << Grid<Dim>::level(K_.keys()[a]);
+	forNeighbours(K, [&](int a, int b) {
+		const int cells = 1 << Grid<Dim>::level(K.keys()[a]);
 		difference      = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>() / cells);
 	});
 	return before + difference / system_.model.grid.cellSize;
 }
 
-template class LocalBalance<2>;
-template class LocalBalance<3>;
+template double Residual<2>::local(const Eigen::VectorXd&, double);
+template double Residual<3>::local(const Eigen::VectorXd&, double);
 
 } // namespace gimpm
