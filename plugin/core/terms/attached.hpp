@@ -42,4 +42,12 @@ template <int Dim, template <int> class Attached> void addAttachedForce(const At
 	}
 }
 
+/// Constrains a position along a direction, and, where it sticks, along all.
+template <int Dim> void constrainAttached(const Attachment<Dim>& at, const Vec<Dim>& normal, bool sticks, const typename Term<Dim>::Constrain& constrain)
+{
+	constrain(at.node[0], normal, at.inCell());
+	for (int a = 0; sticks && a < Dim; ++a)
+		constrain(at.node[0], Vec<Dim>::Unit(a), at.inCell());
+}
+
 } // namespace gimpm

@@ -3,7 +3,7 @@
 // Conditions on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
-#include "core/terms/step_kind.hpp"
+#include "core/terms/contact/contact_energy.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include <array>
 #include <map>
@@ -63,6 +63,8 @@ struct Work {
 		return *this;
 	}
 };
+
+inline Work workOf(const gimpm::ContactEnergy& contact) { return { 0, 0, contact.work, std::max(0., contact.energyGain) }; }
 
 // Springs that limit the length of explicit steps: the stiffest, over Young's modulus per cell [-], and what makes it
 // smaller.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies that move with the soil: of free ones the derivative, balance and momentum; of those with nodes who gets what.
-#include "core/terms/contact/contact_coupling.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "core/terms/contact/contact_nodes.hpp"
+#include "core/terms/contact/contact_surface.hpp"
 #include "derivatives.hpp"
 #include "touched_soil.hpp"
 #include <Eigen/Geometry>

@@ -64,7 +64,7 @@ namespace {
 	/// Force on a place that was at `from`, and is at x.
 	template <int Dim> std::optional<Touch<Dim>> touchAt(const RigidBody<Dim>& body, const ContactLaw<Dim>& law, const Vec<Dim>& from, const Vec<Dim>& x)
 	{
-		const Approach<Dim> approach { body.proximity(body.end, x, 1), body.before(x) - from, body.beforeDerivative(), 0.2 * Vec<Dim>::Ones() };
+		const Approach<Dim> approach { body.proximity(body.end, x, 1), x - from, 0.2 * Vec<Dim>::Ones() };
 		return touch(law, approach, 1e-9);
 	}
 
@@ -76,7 +76,7 @@ namespace {
 		Vec<Dim>              x = body.end.position + 0.75 * turned<Dim>(0.42) * Vec<Dim>::Unit(1);
 		for (int i = 0; i < 5; ++i) // 0.01 deep
 			x -= (body.proximity(body.end, x, 1).gap + 0.01) * body.proximity(body.end, x, 1).normal;
-		const Vec<Dim> from    = body.before(x) + 0.003 * Vec<Dim>::LinSpaced(1, 2);
+		const Vec<Dim> from    = x + 0.003 * Vec<Dim>::LinSpaced(1, 2);
 		const auto     touched = touchAt(body, law, from, x);
 		EXPECT_TRUE(touched);
 		EXPECT_NEAR(touched->normalForce, 1, 1e-10);
@@ -105,7 +105,7 @@ namespace {
 		Vec<Dim>   x    = body.end.position + 0.75 * turned<Dim>(0.42) * Vec<Dim>::Unit(1);
 		for (int i = 0; i < 5; ++i) // 0.01 off
 			x -= (body.proximity(body.end, x, 1).gap - 0.01) * body.proximity(body.end, x, 1).normal;
-		const Vec<Dim>        from = body.before(x) + 0.3 * Vec<Dim>::LinSpaced(1, 2);
+		const Vec<Dim>        from = x + 0.3 * Vec<Dim>::LinSpaced(1, 2);
 		const ContactLaw<Dim> law { 100, 50, 0.5, 2, 3, 0.02 }, capped { 100, 50, 0.5, 0.2, 3, 0.02 }, near { 100, 50, 0.5, 2, 3, 0.005 };
 		const auto            rubs = touchAt(body, law, from, x), rubsLess = touchAt(body, capped, from, x);
 		ASSERT_TRUE(rubs && rubsLess);
@@ -163,7 +163,7 @@ namespace {
 		const auto body = bodyOf<3>(RigidKind::block);
 		const Vec3 from = body.begin.position + Vec3(0.3, 0.5, -0.2);
 		const Vec3 now  = body.end.inSpace(body.begin.inBody(from));
-		EXPECT_LT((body.before(now) - from).norm(), 1e-15);
+		EXPECT_LT((body.carried(from) - (now - from)).norm(), 1e-15);
 	}
 
 	TEST(ContactLaw, OfASheetItCountsWhetherAPlaceIsStraightBehindIt)

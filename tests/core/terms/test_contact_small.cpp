@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies that are small beside the cells, on soil that goes on beside them: wider shape functions, with derivative,
 // balance and memory of these, and none where soil ends.
-#include "core/terms/contact/contact_coupling.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "derivatives.hpp"
 #include "touched_soil.hpp"
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/bodies/body_contact.hpp"
+#include "core/terms/attached.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -92,16 +93,13 @@ auto BodyContact<Dim>::contactAt(const Eigen::VectorXd& d, PairJacobian kind, co
 	if (!f && state_.d.size() == d.size() && state_.d == d) return state_;
 	state_.d = d, state_.now = positionsAt(d), state_.touching.clear();
 	for (const ContactPoint& contactPoint : contactPoints_) {
-		const auto& meeting = meetingOf(contactPoint);
 		const Near* near    = contactPoint.first;
 		auto        end     = near ? pairNow(contactPoint, *near, d, state_.now) : PairPositions<Dim>();
 		const Near* nearest = nearestOf(contactPoint, &d, state_.now);
 		if (!nearest) continue;
 		if (!near || !goesOn(end)) near = nearest, end = pairNow(contactPoint, *near, d, state_.now);
-		const double          penalty = penaltyOf(contactPoint);
-		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * contactPoint.area };
-		const auto            start = pair(contactPoint.start, meeting.master, near->piece, start_);
-		const auto            force = pairForce<Dim>(law, start, contactPoint.tangentialForce, end, contactPoint.closed, tolerance_, kind);
+		const auto start = pair(contactPoint.start, meetingOf(contactPoint).master, near->piece, start_);
+		const auto force = pairForce<Dim>(contactPoint.law, start, contactPoint.tangentialForce, end, contactPoint.closed, tolerance_, kind);
 		if (!force) continue;
 		state_.touching.push_back({ contactPoint, *near, *force, end });
 		if (f) f(state_.touching.back(), force->tangent);
@@ -241,35 +239,27 @@ template <int Dim> void BodyContact<Dim>::addWithTangent(const Eigen::VectorXd& 
 	add(d, 1, resistance, nullptr, K, isRough() ? PairJacobian::symmetric : PairJacobian::exact);
 }
 
-template <int Dim> void BodyContact<Dim>::constrainAt(const Touching& touching, bool sticks, const typename Term<Dim>::Constrain& constrain) const
+template <int Dim> void BodyContact<Dim>::constrainAt(const Touching& touching, bool slips, const typename Term<Dim>::Constrain& constrain) const
 {
-	const Vec<Dim>& normal     = Facing<Dim>(touching.now).normal;
-	const auto&     master     = facets_[meetingOf(touching.contactPoint).master];
-	const auto      constrains = [&](const Attachment<Dim>& at) {
-                constrain(at.node[0], normal, at.inCell());
-                for (int a = 0; sticks && a < Dim; ++a)
-                        constrain(at.node[0], Vec<Dim>::Unit(a), at.inCell());
-	};
-	constrains(touching.contactPoint.at);
+	const Vec<Dim>& normal = Facing<Dim>(touching.now).normal;
+	const auto&     master = facets_[meetingOf(touching.contactPoint).master];
+	const bool      sticks = !touching.contactPoint.law.isSmooth() && !slips;
+	constrainAttached<Dim>(touching.contactPoint.at, normal, sticks, constrain);
 	for (const int v : master.pieces[touching.near.piece])
-		constrains(*master.at[v]);
+		constrainAttached<Dim>(*master.at[v], normal, sticks, constrain);
 }
 
 /// Each as if the other one stood still.
 template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Constrain& constrain)
 {
-	for (const Touching& touching : contactAt(Eigen::VectorXd::Zero(unknowns_)).touching) {
-		const auto& meeting = meetingOf(touching.contactPoint);
-		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0, constrain);
-	}
+	for (const Touching& touching : contactAt(Eigen::VectorXd::Zero(unknowns_)).touching)
+		constrainAt(touching, false, constrain);
 }
 
 template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Constrain& constrain)
 {
-	for (const Touching& touching : contactAt(d).touching) {
-		const auto& meeting = meetingOf(touching.contactPoint);
-		constrainAt(touching, meeting.frictionCoefficient > 0 && meeting.adhesion > 0 && !touching.force.slips, constrain);
-	}
+	for (const Touching& touching : contactAt(d).touching)
+		constrainAt(touching, touching.force.slips, constrain);
 }
 
 template class BodyContact<2>;

@@ -2,9 +2,9 @@
 // Contact of bodies of points with each other.
 #pragma once
 #include "core/terms/bodies/body_pair.hpp"
+#include "core/terms/contact/contact_energy.hpp"
 #include "core/terms/contact/facets.hpp"
 #include "core/terms/coupled_term.hpp"
-#include "core/terms/step_kind.hpp"
 #include <functional>
 
 namespace gimpm {
@@ -59,17 +59,12 @@ template <int Dim> struct BodyMeeting {
 
 template <int Dim> class BodyContact;
 
-template <int Dim> struct BodyContacts {
+/// In explicit steps what the end of the step adds to the forces is an impulse
+/// (core/terms/inertia/contact_impulse.hpp).
+template <int Dim> struct BodyContacts : ContactEnergy {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
-	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
-	/// Weight of contact forces in the balance of a time step (core/terms/inertia/time_scheme.hpp); in explicit
-	/// ones what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
-	double                  weight     = 1;
-	StepKind                kind       = StepKind::quasiStatic;
-	double                  energy     = 0;  ///< energy that has come into the system before this time step [J]
-	double                  energyGain = 0;  ///< work in that step beyond what contact had stored [J]
-	const BodyContact<Dim>* acting     = {}; ///< the term of the step that is being made
+	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
 };
 
 /// Positions on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
@@ -112,7 +107,7 @@ private:
 		int               meeting, piece; ///< numbers of the meeting, and of the facet
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
-		double            young           = 0;
+		ContactLaw<Dim>   law {};
 		double            normalForce     = 0;                ///< force as the step begins [N]
 		Vec<Dim>          tangentialForce = Vec<Dim>::Zero(); ///< the same
 		double            closed          = 0;                ///< gap at which it begins to be pressed [m]
@@ -142,7 +137,7 @@ private:
 
 	void                addContactPoints(int meeting, const StepContext<Dim>&);
 	void                findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void                takeModuli(const StepContext<Dim>&);
+	void                makeLaws(const StepContext<Dim>&);
 	void                findFirst(ContactPoint&);
 	void                keepApart(ContactPoint* begin, ContactPoint* end);
 	void                begin(ContactPoint&);
@@ -163,17 +158,13 @@ private:
 	void addForces(
 	        const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions) const;
 	void                    addTangent(const std::vector<PairNode>&, const Tangent&, double factor, Couplings&) const;
-	void                    constrainAt(const Touching&, bool sticks, const typename Term<Dim>::Constrain&) const;
+	void                    constrainAt(const Touching&, bool slips, const typename Term<Dim>::Constrain&) const;
 	void                    moveSurfaces(const Positions& now);
 	double                  work(const Eigen::VectorXd& d) const;
 	double                  energyGain(const Eigen::VectorXd& d) const;
 	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
 	double                  approach(const BodyMeeting<Dim>&, const Positions& now) const;
 	const BodyMeeting<Dim>& meetingOf(const ContactPoint& contactPoint) const { return system_.meetings[contactPoint.meeting]; }
-	double                  penaltyOf(const ContactPoint& contactPoint) const
-	{
-		return meetingOf(contactPoint).stiffness * contactPoint.young * contactPoint.area / cellSize_;
-	} ///< [N/m]
 
 	BodyContacts<Dim>&        system_;
 	const double              cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]

@@ -30,14 +30,11 @@ template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 /// point stays before one plane that does not turn.
 template <int Dim> double BodyContact<Dim>::energyGain(const Eigen::VectorXd& d) const
 {
-	const auto stored = [this](const ContactPoint& contactPoint, double normalForce, const Vec<Dim>& tangentialForce) {
-		return (normalForce * normalForce + slipSoftnessOfBodies * tangentialForce.squaredNorm()) / (2 * penaltyOf(contactPoint));
-	};
 	double sum = work(d);
 	for (const ContactPoint& contactPoint : contactPoints_)
-		if (contactPoint.first) sum -= stored(contactPoint, contactPoint.normalForce, contactPoint.tangentialForce);
+		if (contactPoint.first) sum -= contactPoint.law.stored(contactPoint.normalForce, contactPoint.tangentialForce.norm());
 	for (const Touching& now : contactAt(d).touching)
-		sum += stored(now.contactPoint, now.force.normalForce, now.force.tangentialForce);
+		sum += now.contactPoint.law.stored(now.force.normalForce, now.force.tangentialForce.norm());
 	return sum;
 }
 

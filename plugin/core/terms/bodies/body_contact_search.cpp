@@ -45,7 +45,7 @@ template <int Dim>
 BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>& step)
         : system_(system)
         , cellSize_(step.grid.cellSize)
-        , tolerance_(1e-9 * cellSize_)
+        , tolerance_(contactTolerance(cellSize_))
         , reach_(reachOfBodies * cellSize_)
         , isRing_(step.grid.axisymmetric)
         , unknowns_(Dim * Eigen::Index(step.basis.nodes.size()))
@@ -58,7 +58,7 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 	}
 	for (int m = 0; m < int(system.meetings.size()); ++m)
 		addContactPoints(m, step);
-	takeModuli(step);
+	makeLaws(step);
 	for (ContactPoint& contactPoint : contactPoints_)
 		findFirst(contactPoint);
 	for (auto first = contactPoints_.begin(), last = first; first != contactPoints_.end(); first = last) {
@@ -91,7 +91,7 @@ template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const Ste
 			const auto at = ofSlave(x);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
-			ContactPoint contactPoint { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
+			ContactPoint contactPoint { number, i, x, normal.normalized(), area, {}, 0, Vec<Dim>::Zero(), 0, *at };
 			findNear(contactPoint, near, ofMaster);
 			if (contactPoint.near.empty()) continue;
 			if (!meeting.shear.empty())
@@ -123,8 +123,8 @@ template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, c
 	}
 }
 
-/// The smaller one of both, by the master's cell at the nearest piece.
-template <int Dim> void BodyContact<Dim>::takeModuli(const StepContext<Dim>& step)
+/// Makes the law of each, with the smaller modulus of both, by the master's cell at the nearest piece.
+template <int Dim> void BodyContact<Dim>::makeLaws(const StepContext<Dim>& step)
 {
 	std::vector<char>               isAskedFor(step.basis.populatedLeaves().size(), 0);
 	std::vector<std::array<int, 2>> leaves;
@@ -143,8 +143,12 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const StepContext<Dim>& ste
 	if (contactPoints_.empty()) return; // in all processes, which know the same contact points
 	auto moduli = cellModuli(isAskedFor, step.basis, step.stiffnessOf, step.grid);
 	step.division.complete(step.basis.populatedLeaves(), moduli);
-	for (std::size_t i = 0; i < contactPoints_.size(); ++i)
-		contactPoints_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
+	for (std::size_t i = 0; i < contactPoints_.size(); ++i) {
+		ContactPoint& point   = contactPoints_[i];
+		const auto&   meeting = meetingOf(point);
+		const double  penalty = meeting.stiffness * std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]) * point.area / cellSize_;
+		point.law             = { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * point.area };
+	}
 }
 
 /// The piece that the contact point begins with, and the gap to it.
@@ -168,7 +172,8 @@ template <int Dim> void BodyContact<Dim>::keepApart(ContactPoint* begin, Contact
 	double normalForce = 0, gap = 0, penalty = 0;
 	for (ContactPoint* contactPoint = begin; contactPoint != end; ++contactPoint) {
 		if (!contactPoint->first) return;
-		normalForce += contactPoint->normalForce, gap += penaltyOf(*contactPoint) * contactPoint->closed, penalty += penaltyOf(*contactPoint);
+		normalForce += contactPoint->normalForce, gap += contactPoint->law.normalStiffness * contactPoint->closed,
+		        penalty += contactPoint->law.normalStiffness;
 	}
 	const double opens   = (gap + normalForce) / penalty; // gap at which the pressures that the gaps differ by are the whole of the mean one
 	const auto   isOpen  = [&](const ContactPoint& contactPoint) { return contactPoint.closed > opens; };
@@ -188,7 +193,7 @@ template <int Dim> void BodyContact<Dim>::keepApart(ContactPoint* begin, Contact
 template <int Dim> void BodyContact<Dim>::begin(ContactPoint& contactPoint)
 {
 	if (contactPoint.first)
-		contactPoint.closed = contactPoint.normalForce > 0 ? contactPoint.closed + contactPoint.normalForce / penaltyOf(contactPoint)
+		contactPoint.closed = contactPoint.normalForce > 0 ? contactPoint.closed + contactPoint.normalForce / contactPoint.law.normalStiffness
 		                                                   : std::min(0., contactPoint.closed);
 }
 

@@ -63,13 +63,6 @@ template <int Dim> struct FacingDerivative {
 	}
 };
 
-/// Friction returned from a trial, and its derivative.
-template <int Dim> struct Rubbing {
-	Vec<Dim>                             shear   = Vec<Dim>::Zero();
-	bool                                 slips   = false;
-	typename FacingDerivative<Dim>::Rows tangent = FacingDerivative<Dim>::Rows::Zero();
-};
-
 /// Slip of the contact point along the matter of the piece, S = sum of (w_i - w_i at the start) x_i, and its
 /// derivative.
 template <int Dim> struct Slip {
@@ -88,32 +81,25 @@ template <int Dim> struct Slip {
 	}
 };
 
+/// Adds the derivative to the tangent, if there is one; without dGap that by the pressure is left out.
 template <int Dim>
-Rubbing<Dim> rub(
+Friction<Dim> frictionOf(
         const ContactLaw<Dim>& law, const Facing<Dim>& start, const Vec<Dim>& before, double normalForce, const Facing<Dim>& at, const Slip<Dim>& slip,
-        const FacingDerivative<Dim>* d, bool exactly)
+        const FacingDerivative<Dim>* d, const typename FacingDerivative<Dim>::Row* dGap, typename FacingDerivative<Dim>::Rows* tangent)
 {
-	Rubbing<Dim> r;
-	if (law.frictionCoefficient == 0 || law.cap == 0) return r;
+	if (law.isSmooth()) return {};
+	Vec<Dim>                             trial  = -law.tangentialStiffness * slip.value;
+	typename FacingDerivative<Dim>::Rows dTrial = -law.tangentialStiffness * slip.derivative;
 	if (normalForce == 0) {
-		if (d) r.tangent = -law.tangentialStiffness * slip.derivative;
-		return r;
+		if (tangent) *tangent = dTrial;
+		return {};
 	}
-	Vec<Dim> trial = -law.tangentialStiffness * slip.value;
-	if (d) r.tangent = -law.tangentialStiffness * slip.derivative;
 	for (int a = 0; a + 1 < Dim; ++a) {
 		const double kept = start.along[a].dot(before);
 		trial += kept * at.along[a];
-		if (d) r.tangent += kept * d->along[a];
+		if (d) dTrial += kept * d->along[a];
 	}
-	const double limit = std::min(law.frictionCoefficient * normalForce, law.cap), size = trial.norm();
-	r.slips = size > limit;
-	r.shear = r.slips ? Vec<Dim>(limit / size * trial) : trial;
-	if (!r.slips || !d) return r;
-	const Vec<Dim> way = trial / size;
-	r.tangent          = (limit / size * (r.tangent - way * (way.transpose() * r.tangent))).eval();
-	if (exactly && law.frictionCoefficient * normalForce < law.cap) r.tangent -= law.frictionCoefficient * law.normalStiffness * way * d->gap;
-	return r;
+	return returnMapping<Dim, PairForce<Dim>::size>(law, normalForce, trial, &dTrial, dGap, tangent);
 }
 
 } // namespace
@@ -160,22 +146,24 @@ std::optional<PairForce<Dim>> pairForce(
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
 	PairForce<Dim>    f;
-	f.normalForce      = std::max(0., -law.normalStiffness * (at.gap - closed));
-	const auto rubbing = rub<Dim>(law, first, before, f.normalForce, at, slip, d ? &*d : nullptr, asked == PairJacobian::exact);
-	f.tangentialForce = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
+	f.normalForce                                  = law.normalForce(at.gap - closed);
+	typename FacingDerivative<Dim>::Rows dFriction = FacingDerivative<Dim>::Rows::Zero();
+	const auto                           friction  = frictionOf<Dim>(
+                law, first, before, f.normalForce, at, slip, d ? &*d : nullptr, asked == PairJacobian::exact ? &d->gap : nullptr, d ? &dFriction : nullptr);
+	f.tangentialForce = friction.force, f.slips = friction.slips, f.slip = slip.value;
 	const Vec<Dim> whole = f.normalForce * at.normal + f.tangentialForce;
 	f.force[0]           = whole;
 	for (int i = 0; i < Dim; ++i)
 		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.tangentialForce.dot(at.weightGradient[i]) * at.normal;
 	if (!d) return f;
-	const typename FacingDerivative<Dim>::Rows dWhole = -law.normalStiffness * at.normal * d->gap + f.normalForce * d->normal + rubbing.tangent;
+	const typename FacingDerivative<Dim>::Rows dWhole = -law.normalStiffness * at.normal * d->gap + f.normalForce * d->normal + dFriction;
 	f.tangent.template topRows<Dim>()                 = dWhole;
 	for (int i = 0; i < Dim; ++i) {
 		const double across                               = f.tangentialForce.dot(at.weightGradient[i]);
 		f.tangent.template middleRows<Dim>(Dim * (i + 1)) = -at.weight[i] * dWhole - whole * d->weight[i]
 		        + at.normal
 		                * (across * d->gap
-		                   + at.gap * (at.weightGradient[i].transpose() * rubbing.tangent + f.tangentialForce.transpose() * d->weightGradient[i]))
+		                   + at.gap * (at.weightGradient[i].transpose() * dFriction + f.tangentialForce.transpose() * d->weightGradient[i]))
 		        + at.gap * across * d->normal;
 	}
 	if (asked == PairJacobian::symmetric) f.tangent = ((f.tangent + f.tangent.transpose()) / 2).eval();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/contact_free.hpp"
 #include "core/solvers/least_squares.hpp"
-#include "core/terms/contact/contact_turn.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 

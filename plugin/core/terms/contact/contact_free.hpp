@@ -39,6 +39,12 @@ template <int Dim> struct FreeBody {
 Mat<2> rotationOf(const Turn<2>&);
 Mat3   rotationOf(const Turn<3>&);
 
+/// Matrix that makes a change of the motion a small displacement and turn of the body as it is: in space turns do not
+/// add.
+template <int Dim> typename FreeBody<Dim>::Matrix incrementsOf(const typename FreeBody<Dim>::Vector& motion);
+template <> FreeBody<2>::Matrix                   incrementsOf<2>(const FreeBody<2>::Vector& motion);
+template <> FreeBody<3>::Matrix                   incrementsOf<3>(const FreeBody<3>::Vector& motion);
+
 /// The force at one contact point, and how it depends on soil and body there.
 template <int Dim> struct FreeContactPoint {
 	Vec<Dim> arm;     ///< from the owner to the contact point, at the iterate [m]

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/contact_law.hpp"
-#include <algorithm>
 
 namespace gimpm {
 
@@ -12,28 +11,18 @@ template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, c
 	const Mat<Dim> P = Mat<Dim>::Identity() - n * n.transpose();
 	Touch<Dim>     t;
 	t.normal      = n;
-	t.normalForce = std::max(0., -law.normalStiffness * gap);
+	t.normalForce = law.normalForce(gap);
 	if (isPressed) t.tangent = -law.normalStiffness * n * n.transpose() + t.normalForce * dn;
-	const double limit = std::min(law.frictionCoefficient * std::max(t.normalForce, law.around), law.cap);
-	if (law.frictionCoefficient == 0 || law.cap == 0) return t;
-	if (limit == 0) {
-		t.tangent -= law.tangentialStiffness * P * approach.slipDerivative;
+	if (law.isSmooth()) return t;
+	if (law.frictionLimit(t.normalForce) == 0) {
+		t.tangent -= law.tangentialStiffness * P;
 		return t;
 	}
-	const Vec<Dim> y = approach.tangentialForce - law.tangentialStiffness * approach.slip, trial = P * y;
-	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangentialStiffness * P * approach.slipDerivative;
-	const double   size   = trial.norm();
-	t.slips               = size > limit;
-	if (!t.slips) {
-		t.tangentialForce = trial;
-		t.tangent += dtrial;
-		return t;
-	}
-	const Vec<Dim> along = trial / size;
-	t.tangentialForce    = limit * along;
-	t.tangent += limit / size * (dtrial - along * (along.transpose() * dtrial));
-	if (t.normalForce >= law.around && law.frictionCoefficient * t.normalForce < law.cap)
-		t.tangent -= law.frictionCoefficient * law.normalStiffness * along * n.transpose();
+	const Vec<Dim>                      y        = approach.tangentialForce - law.tangentialStiffness * approach.slip;
+	const Mat<Dim>                      dTrial   = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangentialStiffness * P;
+	const Eigen::Matrix<double, 1, Dim> dGap     = n.transpose();
+	const auto                          friction = returnMapping<Dim, Dim>(law, t.normalForce, P * y, &dTrial, &dGap, &t.tangent);
+	t.tangentialForce = friction.force, t.slips = friction.slips;
 	return t;
 }
 

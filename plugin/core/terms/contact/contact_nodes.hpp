@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A body that deforms with nodes at its corners, as a member of a net or a membrane: who takes which part of a force.
 #pragma once
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_system.hpp"
 
 namespace gimpm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Features of bodies that are small beside the cells press on the soil by wider functions.
 #include "core/terms/contact/contact_small.hpp"
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_hiding.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -166,69 +166,59 @@ template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, co
 	return shares;
 }
 
-} // namespace
-
-/// Numbers of the first place of a body and of that behind its last one.
-template <int Dim> std::pair<int, int> Contact<Dim>::contactPointsOf(int body) const
+template <int Dim>
+void widenOn(int number, const std::vector<RigidBody<Dim>>& bodies, const StepContext<Dim>& step, const std::vector<int>& count, ContactPoint<Dim>* first)
 {
-	const auto isOfEarlier = [](int of) { return [of](const ContactPoint& contactPoint) { return contactPoint.body < of; }; };
-	const auto numberOf
-	        = [&](int of) { return int(std::partition_point(contactPoints_.begin(), contactPoints_.end(), isOfEarlier(of)) - contactPoints_.begin()); };
-	return { numberOf(body), numberOf(body + 1) };
-}
-
-/// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
-/// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
-/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is
-/// spread, nor on a body that is one with others that have contact points, as a facet of a mesh is.
-template <int Dim> void Contact<Dim>::widen(int number)
-{
-	const auto& body = system_.bodies[number];
-	if (isRing_ || grid_.isPeriodic() || grid_.parting || body.nodes > 0) return;
-	const double                h    = grid_.cellSize;
+	const auto&                 body = bodies[number];
+	const double                h    = step.grid.cellSize;
 	const Mat<Dim>              back = body.free < 0 ? Mat<Dim>(body.begin.rotation * body.end.rotation.transpose()) : Mat<Dim>::Identity();
-	std::vector<ContactPoint*>  own;
+	ContactPoint<Dim>* const    last = first + count[number];
 	std::vector<FacePoint<Dim>> at;
-	const auto [first, last] = contactPointsOf(number);
-	for (int i = first; i < last; ++i)
-		own.push_back(&contactPoints_[i]), at.push_back({ contactPoints_[i].soil, back * contactPoints_[i].normal });
+	for (const auto* point = first; point != last; ++point)
+		at.push_back({ point->soil, back * point->normal });
 	std::vector<Vec<Dim>> shares = sharesOf(body, at, h, false);
 	if (std::all_of(shares.begin(), shares.end(), [](const Vec<Dim>& share) { return share.isZero(0); })) return;
-	const auto around   = bodiesAround(number);
-	const auto isJoined = [&](int b) {
-		const auto [begin, end] = contactPointsOf(b);
-		return begin < end && system_.bodies[b].shape.kind != RigidKind::plane;
-	};
+	const auto around   = bodiesAround(bodies, number, contactTolerance(h));
+	const auto isJoined = [&](int b) { return count[b] > 0 && bodies[b].shape.kind != RigidKind::plane; };
 	if (std::any_of(around.begin(), around.end(), isJoined)) return;
-	const auto planesOf
-	        = [&](const ContactPoint& contactPoint) { return Mirrors<Dim>(basis_, grid_, dofs_, int(contactPoint.number >> contactPointBits)); };
+	const auto              planesOf = [&](const ContactPoint<Dim>& point) { return Mirrors<Dim>(step.basis, step.grid, step.dofs, point.layer()); };
 	std::vector<Index<Dim>> mirrors;
-	for (const ContactPoint* contactPoint : own)
-		mirrors.push_back(planesOf(*contactPoint).beside(contactPoint->attached));
+	for (const auto* point = first; point != last; ++point)
+		mirrors.push_back(planesOf(*point).beside(point->attached));
 	if (isHalved<Dim>(at, mirrors)) shares = sharesOf(body, at, h, true);
 	std::array<bool, Dim> isEnd {};
-	for (std::size_t i = 0; i < own.size(); ++i)
+	for (std::size_t i = 0; i < at.size(); ++i)
 		for (int a = 0; a < Dim; ++a) {
-			const auto& contactPoint = own[i]->attached;
-			const int   side = shares[i][a] > 0 ? sideInCell(contactPoint, a) : 0, layer = int(own[i]->number >> contactPointBits);
+			const int side = shares[i][a] > 0 ? sideInCell(first[i].attached, a) : 0;
 			if (side == 0 || mirrors[i][a] == side || side * at[i].normal[a] <= -0.3) continue;
-			if (!goesOn(contactPoint, at[i].normal, a, side, basis_, grid_, layer, planesOf(*own[i]))) isEnd[a] = true;
+			if (!goesOn(first[i].attached, at[i].normal, a, side, step.basis, step.grid, first[i].layer(), planesOf(first[i]))) isEnd[a] = true;
 		}
-	for (std::size_t i = 0; i < own.size(); ++i) {
+	for (std::size_t i = 0; i < at.size(); ++i) {
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
-		const int layer = int(own[i]->number >> contactPointBits);
-		if (!shares[i].isZero(0)) own[i]->distribution = ForceDistribution<Dim>(own[i]->attached, shares[i], basis_, grid_, layer, mirrors[i]);
+		if (!shares[i].isZero(0))
+			first[i].distribution = ForceDistribution<Dim>(first[i].attached, shares[i], step.basis, step.grid, first[i].layer(), mirrors[i]);
 	}
 }
 
-template double              reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
-template double              reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
-template double              reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
-template double              reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
-template std::pair<int, int> Contact<2>::contactPointsOf(int) const;
-template std::pair<int, int> Contact<3>::contactPointsOf(int) const;
-template void                Contact<2>::widen(int);
-template void                Contact<3>::widen(int);
+} // namespace
+
+template <int Dim> void widenDistributions(const std::vector<RigidBody<Dim>>& bodies, const StepContext<Dim>& step, std::vector<ContactPoint<Dim>>& points)
+{
+	if (step.grid.axisymmetric || step.grid.isPeriodic() || step.grid.parting) return;
+	std::vector<int> count(bodies.size(), 0);
+	for (const ContactPoint<Dim>& point : points)
+		++count[point.body];
+	auto* first = points.data();
+	for (int number = 0; number < int(bodies.size()); first += count[number++])
+		if (bodies[number].nodes == 0) widenOn(number, bodies, step, count, first);
+}
+
+template double reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
+template double reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
+template double reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<FacePoint<2>>&);
+template double reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<FacePoint<3>>&);
+template void   widenDistributions(const std::vector<RigidBody<2>>&, const StepContext<2>&, std::vector<ContactPoint<2>>&);
+template void   widenDistributions(const std::vector<RigidBody<3>>&, const StepContext<3>&, std::vector<ContactPoint<3>>&);
 
 } // namespace gimpm

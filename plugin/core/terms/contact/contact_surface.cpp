@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/contact_surface.hpp"
-#include "core/terms/contact/contact_fine.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -285,26 +284,19 @@ template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape
 }
 
 template <int Dim>
-std::vector<SurfacePoint<Dim>> surfacePointsAt(const RigidShape<Dim>& shape, const Pose<Dim>& pose, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high)
+std::vector<SurfacePoint<Dim>> surfacePointsAt(
+        const RigidShape<Dim>& shape, const Pose<Dim>& pose, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high, bool isFine)
 {
 	const Vec<Dim> middle = pose.inBody((low + high) / 2), half = pose.rotation.transpose().cwiseAbs() * (high - low) / 2;
-	return surfacePoints<Dim>(shape, cellSize / 4, middle - half, middle + half);
-}
-
-template <int Dim>
-std::vector<SurfacePoint<Dim>> finePointsAt(const RigidShape<Dim>& shape, const Pose<Dim>& pose, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high)
-{
-	auto points = surfacePointsAt(shape, pose, cellSize / 2, low, high);
+	auto           points = surfacePoints<Dim>(shape, cellSize / (isFine ? 8 : 4), middle - half, middle + half);
 	for (auto& point : points)
-		point.number += firstFineNumber;
+		point.number += isFine ? firstFineNumber : 0;
 	return points;
 }
 
 template std::vector<SurfacePoint<2>> surfacePoints(const RigidShape<2>&, double, const Vec<2>&, const Vec<2>&);
 template std::vector<SurfacePoint<3>> surfacePoints(const RigidShape<3>&, double, const Vec<3>&, const Vec<3>&);
-template std::vector<SurfacePoint<2>> surfacePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&);
-template std::vector<SurfacePoint<3>> surfacePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&);
-template std::vector<SurfacePoint<2>> finePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&);
-template std::vector<SurfacePoint<3>> finePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&);
+template std::vector<SurfacePoint<2>> surfacePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&, bool);
+template std::vector<SurfacePoint<3>> surfacePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&, bool);
 
 } // namespace gimpm

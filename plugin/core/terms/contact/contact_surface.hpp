@@ -29,8 +29,20 @@ int partsOfEdge(RigidKind, double length, double spacing);
 /// more easily than two, and what a narrower face meets would depend on where it stands among them.
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>&, double spacing, const Vec<Dim>& low, const Vec<Dim>& high);
 
-/// Those of contact on a grid with cells of this size, on a body at a pose: within a box in the axes of space.
+/// A ball of two cells and more may touch with few contact points; a quarter of a cell apart they take it along as the
+/// edges of a polygon do, and so it may have fine ones. Soil that smaller ones meet is not resolved.
+template <int Dim> bool mayHaveFinePoints(const RigidShape<Dim>& shape, double cellSize)
+{
+	return shape.kind == RigidKind::ball && shape.radius >= cellSize * (2 - 1e-9);
+}
+
+/// First number of fine contact points, by which they differ from the usual ones.
+constexpr std::int64_t firstFineNumber = std::int64_t(1) << 40;
+
+/// Those of contact on a grid with cells of this size, on a body at a pose: within a box in the axes of space. A
+/// quarter of a cell apart, fine ones an eighth.
 template <int Dim>
-std::vector<SurfacePoint<Dim>> surfacePointsAt(const RigidShape<Dim>&, const Pose<Dim>&, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high);
+std::vector<SurfacePoint<Dim>> surfacePointsAt(
+        const RigidShape<Dim>&, const Pose<Dim>&, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high, bool isFine = false);
 
 } // namespace gimpm

@@ -23,6 +23,7 @@ template <int Dim> struct ForceDistribution {
 	/// The functions of the cell.
 	explicit ForceDistribution(const Attachment<Dim>& attachment) : nodes(attachment.nodes)
 	{
+		at.fill(Index<Dim>::Zero());
 		for (int n = 0; n < nodes; ++n)
 			node[n] = attachment.node[n], weight[n] = attachment.weight[n], at[n] = attachment.index(n);
 	}

@@ -163,14 +163,6 @@ template <int Dim> bool RigidBody<Dim>::isNarrow(const Vec<Dim>& normal) const
 	return std::abs(normal[thinnest]) < 0.7;
 }
 
-template <> Vec<2> RigidBody<2>::spin() const { return Vec<2>::Zero(); }
-template <> Vec3   RigidBody<3>::spin() const
-{
-	if (end.rotation == begin.rotation) return Vec3::Zero();
-	const Eigen::AngleAxisd turned(Mat3(end.rotation * begin.rotation.transpose()));
-	return turned.angle() * turned.axis();
-}
-
 template <int Dim> double RigidBody<Dim>::motion() const
 {
 	const double shift = (end.position - begin.position).norm();

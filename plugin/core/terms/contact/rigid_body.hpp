@@ -96,15 +96,8 @@ template <int Dim> struct RigidBody {
 	/// An upper bound of how far a contact point on it moves in the step [m].
 	double motion() const;
 
-	/// Position at the begin of the step of the body's matter that is at x at the end.
-	Vec<Dim> before(const Vec<Dim>& x) const { return begin.inSpace(end.inBody(x)); }
-
 	/// Displacement that it would give to what is at x at the begin [m].
 	Vec<Dim> carried(const Vec<Dim>& x) const;
-	Mat<Dim> beforeDerivative() const { return begin.rotation * end.rotation.transpose(); }
-
-	/// Angle times axis by which it turns in the step [rad]; in the plane zero, as no axis lies in it.
-	Vec<Dim> spin() const;
 };
 
 } // namespace gimpm

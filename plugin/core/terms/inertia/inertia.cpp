@@ -2,6 +2,7 @@
 #include "core/terms/inertia/inertia.hpp"
 #include "core/grid/point_nodes.hpp"
 #include "core/terms/bodies/body_contact.hpp"
+#include "core/terms/contact/contact.hpp"
 #include <algorithm>
 #include <numeric>
 
@@ -121,13 +122,7 @@ template <int Dim> void Inertia<Dim>::mend(const StepContext<Dim>& step, bool wi
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
 {
 	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(prescribed_.size());
-	if (!motion_.contacts && !motion_.bodies) return resistance;
-	if (motion_.contacts && motion_.contacts->acting) {
-		if (!d) motion_.contacts->acting->addBefore(resistance);
-		else
-			motion_.contacts->acting->add(*d, { resistance });
-		resistance /= d ? motion_.contacts->weight : 1;
-	}
+	if (motion_.contacts && motion_.contacts->acting) motion_.contacts->acting->addUnweighted(d, resistance);
 	if (motion_.bodies && motion_.bodies->acting) motion_.bodies->acting->addUnweighted(d, resistance);
 	return -resistance;
 }

@@ -2,13 +2,13 @@
 // Motion of points, and the common part of the schemes in time: masses, momenta, and blows of constrained nodes.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
-#include "core/terms/contact/contact.hpp"
 #include "core/terms/inertia/damping.hpp"
 #include "core/terms/inertia/mass_matrix.hpp"
 #include "core/terms/inertia/time_scheme.hpp"
 
 namespace gimpm {
 
+template <int Dim> struct ContactSystem;
 template <int Dim> struct BodyContacts;
 
 /// Constrained nodes that move by a history.

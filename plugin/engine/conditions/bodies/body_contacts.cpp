@@ -175,13 +175,7 @@ template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm:
 	system->kind = step.kind, system->energy = step.energy;
 }
 
-template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
-{
-	Work sum;
-	sum.ofContacts = system->work;
-	sum.given      = std::max(0., system->energyGain);
-	return sum;
-}
+template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const { return workOf(*system); }
 
 template <int Dim> void MeetingBodies<Dim>::reach(const StepOutcome<Dim>&)
 {

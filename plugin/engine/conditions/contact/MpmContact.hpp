@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_system.hpp"
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/materials/angles.hpp"
 #include "yade_api/exposed.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contact_picture.hpp"
-#include "core/terms/contact/contact_fine.hpp"
+#include "core/terms/contact/contact_surface.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
@@ -83,9 +83,7 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 		rigid->shape.axes = contact.turnOf(id).template topLeftCorner<Dim, Dim>();
 		const auto box    = extent<Dim>(records, grid.cellSize);
 		const bool isFine = records.rbegin()->first >= gimpm::firstFineNumber && gimpm::mayHaveFinePoints(rigid->shape, grid.cellSize);
-		const auto places
-		        = (isFine ? gimpm::finePointsAt<Dim> : gimpm::surfacePointsAt<Dim>)(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max());
-		for (const auto& point : places) {
+		for (const auto& point : gimpm::surfacePointsAt<Dim>(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max(), isFine)) {
 			const auto found        = records.find(point.number);
 			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.position)[0] : 1;
 			const bool isBeyondAxis = around <= 0, isOtherSide = rigid->shape.isTwoSided && found == records.end();

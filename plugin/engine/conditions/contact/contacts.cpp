@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/contact/contact_coupling.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
@@ -229,9 +229,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 		add(contact, around.scene, model.grid);
 	for (const auto& contact : given)
 		recall(*contact);
-	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
-		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
-	});
+	system->sortRecords();
 	advanceTo(begin);
 	if (!system->free.empty()) {
 		requireAlone(model);
@@ -285,13 +283,7 @@ template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 	}
 }
 
-template <int Dim> Work Contacts<Dim>::work(const StepOutcome<Dim>&) const
-{
-	Work sum;
-	sum.ofContacts = system->work;
-	sum.given      = std::max(0., system->energyGain);
-	return sum;
-}
+template <int Dim> Work Contacts<Dim>::work(const StepOutcome<Dim>&) const { return workOf(*system); }
 
 template <int Dim> Penalty Contacts<Dim>::penalty() const
 {

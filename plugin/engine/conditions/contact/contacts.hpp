@@ -2,7 +2,7 @@
 #pragma once
 // Contact with rigid bodies, between the bodies of a scene and the term of a step.
 #include "core/stepping/model.hpp"
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_system.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/contact/deforming_bodies.hpp"

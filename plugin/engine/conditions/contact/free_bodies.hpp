@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Limit of steps for bodies that YADE moves freely beside the soil.
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_system.hpp"
 #include "yade_api/body.hpp"
 
 namespace yade {

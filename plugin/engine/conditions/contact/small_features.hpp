@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Features of rigid bodies that are too small for the cells of the grid.
-#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_system.hpp"
 #include "yade_api/types.hpp"
 
 namespace yade {

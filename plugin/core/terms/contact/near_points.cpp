@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/contact/contact_search.hpp"
+#include "core/terms/contact/near_points.hpp"
 #include <cmath>
 
 namespace gimpm {
