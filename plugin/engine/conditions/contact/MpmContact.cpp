@@ -37,11 +37,11 @@ void MpmContact::requireAdmissible() const
 	if (turns.size() % turnWidth != 0)
 		throw std::invalid_argument("MpmContact: the stored rotations of the bodies are incomplete; is the saved file damaged?");
 	if (records.empty()) return;
-	if (!ContactPointRecord::areIn(records))
+	if (!ContactRecords::areIn(records))
 		throw std::invalid_argument(
 		        "MpmContact: the stored contact is that of an earlier revision, by corners of domains, and cannot be used. Give the engine a new one, as solver.contacts = [MpmContact(...)]: "
 		        "its bodies begin without force where they are.");
-	if (records.size() % ContactPointRecord::width != 1)
+	if (records.size() % ContactRecords::width != 1)
 		throw std::invalid_argument("MpmContact: the stored contact points are incomplete; is the saved file damaged?");
 }
 

@@ -15,13 +15,13 @@ namespace yade {
 
 namespace {
 	// Records of one body, by the number of the contact point.
-	using RecordsOfBody = std::map<std::int64_t, ContactPointRecord>;
+	using RecordsOfBody = std::map<std::int64_t, ContactRecords::Record>;
 
 	std::map<int, RecordsOfBody> byBody(const vector<Real>& records)
 	{
 		std::map<int, RecordsOfBody> found;
-		forRecords(
-		        records, [&](const ContactPointRecord& r) { found[r.body].emplace(r.number & ((std::int64_t(1) << gimpm::contactPointBits) - 1), r); });
+		for (const auto& r : ContactRecords::from(records))
+			found[r.body].emplace(r.number & ((std::int64_t(1) << gimpm::contactPointBits) - 1), r);
 		return found;
 	}
 
@@ -57,7 +57,7 @@ namespace {
 	}
 
 	// Stresses are those on the part of the surface that has soil in front of it.
-	void addFields(Picture& picture, const ContactPointRecord* r, Real area)
+	void addFields(Picture& picture, const ContactRecords::Record* r, Real area)
 	{
 		const bool touches = r && r->touches;
 		const Real wetted  = r ? area * r->areaFraction : area;

@@ -6,29 +6,15 @@
 
 namespace yade {
 
-namespace {
-	template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
-	{
-		Vector3r result    = Vector3r::Zero();
-		result.head<Dim>() = x;
-		return result;
-	}
-}
-
 // Reads the records of a contact, in numbers of this run.
 template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 {
 	Places numbers;
 	for (size_t i = 0; i < members.size(); ++i)
 		numbers[members[i].body->id] = int(i);
-	forRecords(contact.records, [&](const ContactPointRecord& r) {
-		const auto body = numbers.find(r.body);
-		if (body == numbers.end()) return; // erased
-		const gimpm::Vec<Dim> tangentialForce = r.tangentialForce.template head<Dim>(), normal = r.normal.template head<Dim>(),
-		                      place = r.position.template head<Dim>();
-		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.normalForce, r.areaFraction, r.travel, r.creep,
-		                            tangentialForce, normal, place });
-	});
+	for (const auto& r : ContactRecords::from(contact.records))
+		if (const auto body = numbers.find(r.body); body != numbers.end()) // else it is erased
+			system->records.push_back(ContactRecords::inDimension<Dim>(r, body->second));
 }
 
 // The impulses are those since the last run.
@@ -59,19 +45,7 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 	for (const auto& r : system->records) {
 		const Owner& owner = owners[system->bodies[r.body].owner];
 		MpmContact&  to    = *owner.contact;
-		ContactPointRecord { r.number,
-			             members[r.body].body->id,
-			             r.gap,
-			             r.normalForce,
-			             r.areaFraction,
-			             r.travel,
-			             r.creep,
-			             r.touches,
-			             r.slips,
-			             inSpace<Dim>(r.tangentialForce),
-			             inSpace<Dim>(r.normal),
-			             inSpace<Dim>(r.position) }
-		        .appendTo(to.records);
+		ContactRecords::append(ContactRecords::inDimension<3>(r, members[r.body].body->id), to.records);
 		to.touching[placeOf(r)] += r.touches;
 		to.slipping[placeOf(r)] += r.slips;
 	}
