@@ -10,34 +10,6 @@ namespace {
 constexpr double balanced = 1e-11; ///< admitted rest of forces, over their absolute contributions
 constexpr int    most     = 200;   ///< iterations
 
-template <int Dim> struct Balance {
-	using Free = FreeBody<Dim>;
-	typename Free::Vector residual, absoluteContributions;
-	bool                  touches = false;
-
-	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<FreeContactPoint<Dim>>& contactPoints)
-	{
-		residual              = body.inertia * motion - body.externalLoad;
-		absoluteContributions = (body.inertia * motion).cwiseAbs() + body.externalLoad.cwiseAbs();
-		for (const auto& contactPoint : contactPoints) {
-			const typename Free::Vector force = RigidBodyJacobian<Dim>(contactPoint).moves.transpose() * contactPoint.force;
-			residual += force, absoluteContributions += force.cwiseAbs();
-			touches = touches || contactPoint.gap <= 0;
-		}
-		for (int i = 0; i < Free::unknowns; ++i)
-			if (body.isGiven[i]) residual[i] = 0;
-	}
-	/// Scales moments to forces at the distance `size`.
-	typename Free::Vector scaled(const typename Free::Vector& x, double size) const
-	{
-		typename Free::Vector result = x;
-		result.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
-		return result;
-	}
-	double left(double size) const { return scaled(residual, size).norm(); }
-	double whole(double size) const { return scaled(absoluteContributions, size).norm(); }
-};
-
 /// A body that touches nothing and has no inertia goes by its externalLoad to the first place that it meets.
 template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector<FreeContactPoint<Dim>>& contactPoints)
 {
@@ -114,28 +86,43 @@ public:
 
 	Search(FreeBody<Dim>& body, double size, const Look& look) : body_(body), size_(size), look_(look), at_(seenAt(body.motion)) { }
 
-	bool   isDone() const { return at_.balance.left(size_) <= balanced * at_.balance.whole(size_); }
-	double imbalance() const { return at_.balance.whole(size_) > 0 ? at_.balance.left(size_) / at_.balance.whole(size_) : 0; }
+	bool          isDone() const { return at_.left <= balanced * at_.whole; }
+	double        imbalance() const { return at_.whole > 0 ? at_.left / at_.whole : 0; }
+	const Vector& motion() const { return at_.motion; }
 
 	/// False: there is nowhere to go.
 	bool next()
 	{
-		if (!at_.balance.touches && body_.inertia.isZero(0)) return falls();
+		if (!at_.touches && body_.inertia.isZero(0)) return falls();
 		if (!newton()) creep();
 		return true;
 	}
 
 private:
 	struct Seen {
-		Vector                             motion;
+		Vector                             motion, residual;
 		std::vector<FreeContactPoint<Dim>> contactPoints;
-		Balance<Dim>                       balance;
+		double                             left, whole; // sizes of the residual and of its absolute contributions
+		bool                               touches = false;
 	};
 	Seen seenAt(const Vector& motion) const
 	{
-		auto         contactPoints = look_(motion);
-		Balance<Dim> balance(body_, motion, contactPoints);
-		return { motion, std::move(contactPoints), balance };
+		const Vector inertial = body_.inertia * motion;
+		Seen         seen { motion, inertial - body_.externalLoad, look_(motion), 0, 0 };
+		Vector       absoluteContributions = inertial.cwiseAbs() + body_.externalLoad.cwiseAbs();
+		for (const auto& contactPoint : seen.contactPoints) {
+			const Vector force = RigidBodyJacobian<Dim>(contactPoint).moves.transpose() * contactPoint.force;
+			seen.residual += force, absoluteContributions += force.cwiseAbs();
+			seen.touches = seen.touches || contactPoint.gap <= 0;
+		}
+		for (int i = 0; i < FreeBody<Dim>::unknowns; ++i)
+			if (body_.isGiven[i]) seen.residual[i] = 0;
+		const auto sizeOf = [this](Vector x) { // moments as forces at the distance of its size
+			x.template tail<Turn<Dim>::RowsAtCompileTime>() /= size_;
+			return x.norm();
+		};
+		seen.left = sizeOf(seen.residual), seen.whole = sizeOf(absoluteContributions);
+		return seen;
 	}
 	FreeBody<Dim> here() const
 	{
@@ -157,11 +144,11 @@ private:
 	/// Newton's step, or a part of it, where that lessens what is out of balance.
 	bool newton()
 	{
-		const Vector step = -(compliance(here(), size_, at_.contactPoints) * at_.balance.residual);
+		const Vector step = -(compliance(here(), size_, at_.contactPoints) * at_.residual);
 		double       part = 1;
 		for (int halving = 0; halving < 8; ++halving, part /= 2) {
 			Seen there = seenAt(at_.motion + part * step);
-			if (!(there.balance.left(size_) < (1 - 0.1 * part) * at_.balance.left(size_))) continue;
+			if (!(there.left < (1 - 0.1 * part) * at_.left)) continue;
 			at_ = std::move(there), drag_ = std::max(drag_ / 4, 1e-4);
 			return true;
 		}
@@ -195,12 +182,12 @@ private:
 		}
 		auto thick = here();
 		thick.inertia += drag_ * Vector(resists).asDiagonal();
-		Vector       step = -(compliance(thick, size_, withSecants(at_.contactPoints)) * at_.balance.residual);
+		Vector       step = -(compliance(thick, size_, withSecants(at_.contactPoints)) * at_.residual);
 		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();
 		const double most = 0.02 * size_;
 		if (way > most) step *= most / way;
 		Seen       there    = seenAt(at_.motion + step);
-		const bool isBetter = there.balance.left(size_) < at_.balance.left(size_);
+		const bool isBetter = there.left < at_.left;
 		drag_               = std::clamp(isBetter ? drag_ / 2 : 2 * drag_, 1e-4, 1.);
 		at_                 = std::move(there);
 	}
@@ -209,9 +196,6 @@ private:
 	double         size_, drag_ = 0.01;
 	const Look&    look_;
 	Seen           at_;
-
-public:
-	const Vector& motion() const { return at_.motion; }
 };
 
 } // namespace

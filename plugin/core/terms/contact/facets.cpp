@@ -77,6 +77,25 @@ void addPiece(Facets<3>& to, const Triangle& piece, int number, const Grid<3>& g
 	}
 }
 
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	if (auto attached = attach(position, basis, grid, layer)) return attached;
+	std::optional<Vec<Dim>> nearest;
+	double                  least = std::numeric_limits<double>::infinity();
+	const Vec<Dim>          xi    = (position - grid.origin) / grid.cellSize;
+	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	const Index<Dim> own = xi.array().floor().template cast<int>();
+	for (int i = 0; i < cellsAround<Dim>; ++i) {
+		const Index<Dim> cell = own + offsetAround<Dim>(i);
+		const Vec<Dim>   low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
+		const double     away = (xi - inside).squaredNorm();
+		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
+			least = away, nearest = grid.origin + grid.cellSize * inside;
+	}
+	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
+}
+
 } // namespace
 
 template <int Dim> Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : start(surface.vertices)
@@ -101,25 +120,6 @@ template <int Dim> std::vector<Vec<Dim>> Facets<Dim>::positionsAt(const Eigen::V
 	return positions;
 }
 
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
-{
-	if (auto attached = attach(position, basis, grid, layer)) return attached;
-	std::optional<Vec<Dim>> nearest;
-	double                  least = std::numeric_limits<double>::infinity();
-	const Vec<Dim>          xi    = (position - grid.origin) / grid.cellSize;
-	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
-	const Index<Dim> own = xi.array().floor().template cast<int>();
-	for (int i = 0; i < cellsAround<Dim>; ++i) {
-		const Index<Dim> cell = own + offsetAround<Dim>(i);
-		const Vec<Dim>   low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
-		const double     away = (xi - inside).squaredNorm();
-		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
-		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
-			least = away, nearest = grid.origin + grid.cellSize * inside;
-	}
-	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
-}
-
 template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(const Vec<Dim>& position)
 {
 	const Vec<Dim> xi       = (position - grid_.origin) / grid_.size(0);
@@ -140,7 +140,5 @@ template struct Facets<2>;
 template struct Facets<3>;
 template class Attacher<2>;
 template class Attacher<3>;
-template std::optional<Attachment<2>> attachNear(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
-template std::optional<Attachment<3>> attachNear(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
 
 } // namespace gimpm

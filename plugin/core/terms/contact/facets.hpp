@@ -24,12 +24,9 @@ template <int Dim> struct Facets {
 	Positions positionsAt(const Eigen::VectorXd& d) const;
 };
 
-/// Attaches like attach(), and farther away to the position in the nearest populated cell of its neighbours: what soil
-/// leaves behind of its surface goes with it.
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& position, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
-
-/// The same for one contact point after another of a body: those inside of the cell that the last one was inside of
-/// need not look for its nodes.
+/// Attaches one contact point after another of a body like attach(), and farther away to the position in the nearest
+/// populated cell of its neighbours: what soil leaves behind of its surface goes with it. Those inside of the cell that
+/// the last one was inside of need not look for its nodes.
 template <int Dim> class Attacher {
 public:
 	/// The basis and the grid must outlive it.

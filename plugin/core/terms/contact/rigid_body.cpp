@@ -84,12 +84,8 @@ template <int Dim> double leastDistance(const std::array<Vec<Dim>, Dim>& corners
 
 } // namespace
 
-Vec<2> normalOf(const std::array<Vec<2>, 2>& corner)
-{
-	const Vec<2> along = corner[1] - corner[0];
-	return Vec<2>(along[1], -along[0]).normalized();
-}
-Vec3 normalOf(const std::array<Vec3, 3>& corner) { return (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized(); }
+Vec<2> normalOf(const std::array<Vec<2>, 2>& corner) { return pieceNormal(corner[0], corner[1]).normalized(); }
+Vec3   normalOf(const std::array<Vec3, 3>& corner) { return pieceNormal(corner[0], corner[1], corner[2]).normalized(); }
 
 template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pose, const Vec<Dim>& x, int side) const
 {
