@@ -152,28 +152,13 @@ public:
 	}
 
 private:
-	/// A point whose centre is in the body.
-	struct Inside {
-		Vec<Dim> centre, half, outward; // domain; normal of the body's surface closest to its centre
-		double   gap;                   // gap of the centre, < 0 [m]
-
-		/// True if it is in front of a contact point, or rather behind it, as in SoilNear.
-		bool isAt(const Vec<Dim>& position, const Vec<Dim>& normal, double cellSize) const
-		{
-			const Vec<Dim> away = centre - position, beside = away - away.dot(normal) * normal;
-			return outward.dot(normal) > 0.7 && (beside.cwiseAbs().array() <= half.array() + cellSize / 4).all();
-		}
-	};
-
 	void addPoints(int layer)
 	{
 		std::vector<SoilDomain<Dim>> domains;
-		inside_.clear();
 		for (auto near = first_; near != last_; ++near) {
 			if (near->layer != layer) continue;
 			const Proximity<Dim> closest = body_.proximity(body_.begin, near->centre(), near->side);
-			domains.push_back({ near->centre(), near->half(), near->young, closest.normal });
-			if (closest.gap < 0) inside_.push_back({ near->centre(), near->half(), closest.normal, closest.gap });
+			domains.push_back({ near->centre(), near->half(), near->young, closest.normal, closest.gap });
 		}
 		const SoilNear<Dim> soil(std::move(domains), h_);
 		const auto [low, high]   = soil.bounds();
@@ -210,7 +195,7 @@ private:
 		const double penalty = body_.stiffness * made.young * made.area / h_;
 		made.law             = { penalty, penalty / slipSoftness, body_.frictionCoefficient, body_.adhesion * made.area };
 		if (record) recall(made, *record, sight->gap);
-		if (touched && record->gap < 0) moveOut(made, *record);
+		if (touched && record->gap < 0) moveOut(made, *record, soil);
 		to_.points.push_back(made);
 	}
 
@@ -247,15 +232,12 @@ private:
 
 	/// In statics centres that have got into the body are moved out slowly, also where soil does not slide, as
 	/// recall() does where it does: they get in on their way through the grid, be it with the body.
-	void moveOut(ContactPoint<Dim>& made, const ContactRecord<Dim>& record) const
+	void moveOut(ContactPoint<Dim>& made, const ContactRecord<Dim>& record, const SoilNear<Dim>& soil) const
 	{
-		if (inside_.empty() || system_.kind == StepKind::dynamic || body_.free >= 0 || body_.nodes > 0) return;
+		if (system_.kind == StepKind::dynamic || body_.free >= 0 || body_.nodes > 0) return;
 		const Vec<Dim> normal = body_.begin.rotation * body_.end.rotation.transpose() * made.normal;
-		double         lowest = made.gap;
-		for (const auto& point : inside_)
-			if (point.isAt(made.soil, normal, h_)) lowest = std::min(lowest, point.gap);
-		const auto share = [&](double way) { return std::min(0.1, way / h_); };
-		made.gap += std::max(0., share(made.carried.norm()) - share(record.travel)) * (lowest - made.gap);
+		const auto     share  = [&](double way) { return std::min(0.1, way / h_); };
+		made.gap += std::max(0., share(made.carried.norm()) - share(record.travel)) * (soil.deepest(made.soil, normal, made.gap) - made.gap);
 	}
 
 	static bool isInPeriod(const Vec<Dim>& position, const Grid<Dim>& grid)
@@ -274,7 +256,6 @@ private:
 	const double                                         h_;
 	FoundContact<Dim>&                                   to_;
 	typename std::vector<SoilPoint<Dim>>::const_iterator first_, last_;
-	std::vector<Inside>                                  inside_; // in the layer
 };
 
 } // namespace

@@ -32,6 +32,7 @@ template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains,
 	for (const auto& d : domains_) {
 		low_ = low_.cwiseMin(d.centre), high_ = high_.cwiseMax(d.centre);
 		largest_ = std::max(largest_, d.half.maxCoeff());
+		if (d.gap < 0) inside_.push_back(d);
 	}
 	if (domains_.empty()) return;
 	size_ = bin(high_) + Index<Dim>::Ones();
@@ -66,19 +67,15 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
 /// then those count which it misses by a quarter of a cell.
-template <int Dim>
-template <class F>
-double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides& hides) const
+template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
 	double         hit = infinite, near = infinite;
 	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = position + reach * normal;
 	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
-		if (!isInFront(d)) return;
-		const Vec<Dim> away   = d.centre - position;
-		const double   across = away.dot(normal), straight = entry(position, normal, d);
-		const bool     passes = ((away - across * normal).array().abs() > d.half.array() + beside).any();
-		const double   here   = passes ? infinite : across - normal.cwiseAbs().dot(d.half);
+		if (!d.isInFrontOf(normal)) return;
+		const double straight = entry(position, normal, d);
+		const double here     = d.isPassed(position, normal, beside) ? infinite : (d.centre - position).dot(normal) - normal.cwiseAbs().dot(d.half);
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});
@@ -91,14 +88,13 @@ double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, 
 /// that end leaves along an axis is told by the centre of the soil in it; what is missing besides are gaps.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
-	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
-	const double half = 0.25 * cellSize_, gap = gapFrom(position, normal, reach, isInFront, hides);
+	const double half = 0.25 * cellSize_, gap = gapFrom(position, normal, reach, hides);
 	if (!(gap <= reach)) return std::nullopt;
 	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = position + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
 	double         volume = 0, stiff = 0;
 	Vec<Dim>       moment = Vec<Dim>::Zero();
 	forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
-		if (!isInFront(d)) return;
+		if (!d.isInFrontOf(normal)) return;
 		const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
 		const double   part = (high - low).cwiseMax(0).prod();
 		if (part == 0 || (hides && hides(d.centre))) return;
@@ -115,6 +111,13 @@ template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& posi
 		areaFraction *= counts(left), tiled /= left;
 	}
 	return Sight { gap, areaFraction * counts(tiled), stiff / volume };
+}
+
+template <int Dim> double SoilNear<Dim>::deepest(const Vec<Dim>& position, const Vec<Dim>& normal, double gap) const
+{
+	for (const auto& d : inside_)
+		if (d.isInFrontOf(normal) && !d.isPassed(position, normal, 0.25 * cellSize_)) gap = std::min(gap, d.gap);
+	return gap;
 }
 
 template class SoilNear<2>;
