@@ -7,6 +7,7 @@ import re
 import shutil
 import struct
 import subprocess
+import unicodedata
 
 import pytest
 from conftest import root
@@ -130,6 +131,22 @@ def test_every_source_is_listed_and_every_listed_source_is_cited():
 		name, year = re.match(r'((?:de |van )?[\w-]+)', key)[1], key[-4:]
 		if not re.search(rf'\b{name}\b[^|;]{{0,60}}\b{year}\b', text): missing.append(key)
 	assert not missing
+
+
+def test_every_source_that_the_plugin_cites_is_listed():
+	"""Any author before a year, in pages and code, stands in an entry of that year. The list of examples cites what their pages cite."""
+	plain = lambda text: unicodedata.normalize('NFKD', text).encode('ascii', 'ignore').decode()
+	entries = re.findall(r'^- \*\*(.+?)\*\*: (.*)$', plain((explanation / 'references.md').read_text()), re.MULTILINE)
+	assert [key.lower() for key, _ in entries] == sorted(key.lower() for key, _ in entries)
+	left = {explanation / 'references.md', root / 'plugin/python/mpm/scripts.py'}
+	sources = [path for path in (root / 'README.md', *(root / 'plugin').rglob('*')) if path.suffix in ('.md', '.hpp', '.cpp', '.py') and 'studies' not in path.parts and path not in left]
+	missing = []
+	for path in sources:
+		text = re.sub(r'\s+(?://+ ?)?', ' ', re.sub(r'"\s*\n\s*"', '', plain(path.read_text())))
+		for name, year in re.findall(r'\b([A-Z][\w-]+)(?: et al\.| and others)?,? \(?((?:1[789]|20)\d\d)\b(?![-.]\d)', text):
+			if name == 'November' or any(key.endswith(year) and re.search(rf'\b{name}\b', f'{key} {entry}') for key, entry in entries): continue
+			missing.append(f'{path.relative_to(root)}: {name} {year}')
+	assert len(sources) > 200 and not missing
 
 
 def test_the_citation_names_the_newest_release():
