@@ -1,21 +1,35 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Settings of Sphinx for scripts/docs, whose source folder is the whole project: pages stand where their links are right on any viewer of Markdown."""
+"""Settings of Sphinx for scripts/docs, whose source folder is the whole project: pages stand where their links are right on any viewer of Markdown.
+
+With the tag pdf they are those of the manual in one file: pages that plugin/docs/manual.md lists, by LaTeX.
+"""
 import pathlib
 import shutil
 
+from docutils import nodes
+from sphinx.search import en
+
 project = 'Implicit material point method for YADE'
-root_doc = 'plugin/docs/index'
-include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', 'plugin/docs/*.md', 'plugin/docs/explanation/*.md', 'plugin/docs/tutorials/*.md', 'plugin/docs/classes/*.md', 'build/docs/reference.rst', 'build/docs/messages.md', 'plugin/docs/studies/*.md']
+author = 'The authors of the material point plugin'
+isPdf = tags.has('pdf')  # noqa: F821, a name that Sphinx gives
+root_doc = 'plugin/docs/manual' if isPdf else 'plugin/docs/index'
+manual = ['README.md', 'plugin/docs/explanation/*.md', 'plugin/docs/tutorials/*.md', 'plugin/docs/classes/*.md']
+manual += [f'plugin/docs/{name}.md' for name in ('manual', 'questions', 'installation', 'results', 'failures', 'processes', 'glossary')]
+include_patterns = manual if isPdf else manual + ['examples/README.md', 'examples/*/README.md', 'plugin/docs/*.md', 'build/docs/reference.rst', 'build/docs/messages.md', 'plugin/docs/studies/*.md']
+exclude_patterns = [] if isPdf else ['plugin/docs/manual.md']
 extensions = ['myst_parser', 'sphinx.ext.mathjax']
 myst_enable_extensions = ['dollarmath']
 myst_heading_anchors = 3
+if isPdf: suppress_warnings = ['ref.myst', 'myst.xref_missing']  # links to pages that are not in the manual
 myst_update_mathjax = False  # it writes settings for MathJax 3; Debian has version 2
 mathjax2_config = {'tex2jax': {'processClass': 'math'}}
 mathjax_path = 'mathjax/MathJax.js?config=TeX-AMS_CHTML'
 html_theme = 'alabaster'
 html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'description': 'Reference and course'}
-html_sidebars = {'**': ['about.html', 'navigation.html', 'searchbox.html']}
+html_sidebars = {'**': ['about.html', 'searchbox.html', 'localtoc.html', 'navigation.html']}
 html_copy_source = False
+html_search_scorer = str(pathlib.Path(__file__).parent / 'search.js')
+en.english_stopwords.update('can do does from get have how its must should what when where which who why you your'.split())  # words of questions, which no page need have
 
 
 def copyViews(app, failure):
@@ -25,5 +39,28 @@ def copyViews(app, failure):
 		shutil.copy(view, pathlib.Path(app.outdir) / 'examples' / view.parent.name)
 
 
+latex_engine = 'xelatex'
+latex_documents = [(root_doc, 'manual.tex', project, author, 'manual')]
+latex_use_xindy = False
+latex_show_pagerefs = True
+latex_elements = {
+        'papersize': 'a4paper',
+        'extraclassoptions': 'openany,oneside',
+        'fncychap': '',
+        'printindex': '',
+        'preamble': r'\setcounter{tocdepth}{0} \setlength{\tymin}{55pt}',  # contents by chapter; columns that do not break names
+}
+
+
+def tagEquations(app, doctree, page):
+	"""Equations with a number of their own, as (C1), which LaTeX does not admit in the environment that Sphinx puts around formulas."""
+	if app.builder.name != 'latex': return
+	for node in doctree.findall(nodes.math_block):
+		if r'\tag' not in node.astext(): continue
+		node['nowrap'] = True
+		node.children = [nodes.Text(r'\begin{equation*}' + node.astext() + r'\end{equation*}')]
+
+
 def setup(app):
+	app.connect('doctree-resolved', tagEquations)
 	app.connect('build-finished', copyViews)

@@ -7,6 +7,7 @@ build=$root/build
 overlay=$build/overlay
 forUser=no # option --user
 docsPackages=(python3-sphinx python3-myst-parser libjs-mathjax)
+pdfPackages=(latexmk texlive-xetex texlive-latex-extra texlive-fonts-recommended fonts-freefont-otf tex-gyre)
 
 fail() {
 	echo "${0##*/}: $*" >&2

@@ -2,9 +2,7 @@
 """Pages for users: links lead somewhere, and everything public says what it is, in which unit."""
 import json
 import math
-import os
 import re
-import shutil
 import struct
 import subprocess
 import unicodedata
@@ -348,14 +346,3 @@ print(grain.state.pos[1])
 ''')
 	assert (run.folder / 'slope.png').stat().st_size > 30000 and (run.folder / 'out/my-slope-points.pvd').exists()
 	assert float(run.stdout.splitlines()[-1]) < 0 and 'a sphere falls through the soil' in ' '.join(readme.split())
-
-
-def test_the_documentation_is_made_without_a_warning(yade):
-	"""Pages by Sphinx, which scripts/test installs: links between pages, and a reference of all classes and functions."""
-	if not shutil.which('sphinx-build'): pytest.skip('Sphinx is not installed: apt install python3-sphinx python3-myst-parser')
-	made = subprocess.run([root / 'scripts/docs', '--installed'], env=os.environ | yade.ownSettings() | {'YADE': yade.command}, capture_output=True, text=True, timeout=300)
-	assert made.returncode == 0, made.stdout + made.stderr
-	pages = root / 'build/docs/html'
-	assert 'plugin/docs/index.html' in (pages / 'index.html').read_text()
-	reference = (pages / 'build/docs/reference.html').read_text()
-	assert all(f'id="{name}"' in reference for name in ('MpmImplicitEngine', 'yade.mpm.fill', 'yade.mpm.stages.excavate')), reference[:1000]
