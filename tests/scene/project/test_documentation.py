@@ -117,6 +117,26 @@ def test_a_chapter_lists_the_sources_that_it_cites(chapter):
 	assert {f'{names} {year}' for names, year in citation.findall(re.sub(r'\((?:figure|section) \d+ of |\bafter |\bof |\bsmall-strain ', '', body))} == set(keys)
 
 
+def test_equations_are_numbered_and_pages_lead_to_theory_and_back():
+	"""Equations of a chapter have its number and follow each other, or that of the paper; a page of a class shows none, but leads to the chapter, which names the class."""
+	chapters = [page for page in sorted(explanation.glob('*.md')) if page.stem not in ('nomenclature', 'references')]
+	firsts = set()
+	for page in chapters:
+		text = page.read_text()
+		tags = re.findall(r'\\tag\{(.*?)\}', text)
+		own = [tag for tag in tags if not re.fullmatch(r'C[1-9]', tag)]
+		assert tags and len(tags) == len(re.findall(r'^\$\$', text, re.MULTILINE)) and '\n**Notation.** ' in text, page
+		assert own == [f'{own[0][0]}.{number + 1}' for number in range(len(own))], page
+		firsts.add(own[0])
+	assert firsts == {f'{chapter}.1' for chapter in range(1, 9)}
+	for page in sorted((root / 'plugin/docs/classes').glob('*.md')):
+		text = page.read_text()
+		assert '$$' not in text, page
+		if page.stem == 'MpmVtkRecorder': continue
+		chapter = re.search(r'\]\(\.\./explanation/([\w-]+)\.md', text.rsplit('\nMore: ', 1)[-1])
+		assert chapter and f'](../classes/{page.name})' in (explanation / f'{chapter[1]}.md').read_text(), page
+
+
 def test_every_source_is_listed_and_every_listed_source_is_cited():
 	entries = re.findall(r'^- \*\*(.+?)\*\*: ', (explanation / 'references.md').read_text(), re.MULTILINE)
 	assert len(entries) > 40 and len(set(entries)) == len(entries)
