@@ -10,30 +10,20 @@ median, most = 20, 35
 
 # Pages that are not there yet. The list must shrink: a page that has become readable, or has gone, is taken out of it.
 notYet = {
-        'examples/extremes/details.md',
-        'examples/extremes/findings.md',
-        'examples/extremes/pairs.md',
         'examples/meeting/README.md',
         'examples/paper/README.md',
         'examples/penetration/README.md',
         'examples/runout/README.md',
-        'examples/trade/findings.md',
         'examples/two_sizes/README.md',
         'examples/two_sizes/findings.md',
-        'examples/two_sizes/footing.md',
-        'examples/two_sizes/footing_findings.md',
         'examples/waves/README.md',
-        'plugin/docs/contacts.md',
-        'plugin/docs/ground.md',
-        'plugin/docs/measurements.md',
-        'plugin/docs/sand.md',
 }
 
 
 def manual():
 	"""Pages of the manual by their paths; studies are no part of it."""
 	paths = [path.relative_to(root) for path in root.rglob('*.md')]
-	return sorted(str(path) for path in paths if path.parts[0] not in ('build', 'out') and not any(part.startswith('studies') for part in path.parts))
+	return sorted(str(path) for path in paths if path.parts[0] not in ('build', 'out') and path.parts[0][0] != '.' and not any(part.startswith('studies') for part in path.parts))
 
 
 def paragraphs(text):
@@ -60,6 +50,10 @@ def sentences(text):
 def isReadable(text):
 	lengths = sorted(sentences(text))
 	return len(lengths) < 2 or statistics.median(lengths) <= median and lengths[int(0.9 * (len(lengths) - 1))] <= most
+
+
+def test_pages_that_are_not_there_yet_are_there():
+	assert notYet <= set(manual())
 
 
 def test_sentences_are_counted():
