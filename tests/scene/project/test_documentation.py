@@ -312,6 +312,35 @@ for recipe in json.load(open('recipes.json')):
 	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
 
 
+def test_answers_run_and_a_run_that_is_resumed_has_the_same_bits(yade):
+	"""Blocks of the page of questions: seepage under a dam, a restart in a new process, a record at the base, and a state for ParaView."""
+	page = (root / 'plugin/docs/questions.md').read_text()
+	blocks = [re.sub('^    ', '', block, flags=re.MULTILINE) for block in re.findall(r'(?:^    .*\n)+', page, re.MULTILINE)]
+	seepage, restart, record, paraview = blocks
+	save, load = restart.split('\n', 1)
+	scene = """
+from yade import mpm
+O.materials.append(MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=2e4, frictionAngle=0.6, conductivity=1e-5, label='soil'))
+grid = MpmGrid(cellSize=1)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (16, 0), (16, 3), (12, 3), (12, 9), (0, 9)]), grid, 2, 'soil'))
+base = MpmBoundary(max=(inf, 0, inf), fix='xy')
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=[base], label='solver', verbosity=0)
+O.engines, O.dt = [solver], 1 / 10
+"""
+	(yade.folder / 'RSN.AT2').write_text('PEER\nQuake\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 2000, DT= .0100 SEC,\n' + '\n'.join(f'{0.1 * math.sin(0.1 * i) * math.exp(-0.002 * i):.6e}' for i in range(2000)))
+	first = yade(scene + 'upstream, downstream, toe = [(0, 9), (0, 0)], [(16, 0), (16, 3)], [(16, 3), (12, 3), (12, 9)]\n' + seepage.replace('mpm.strengthReduction()', "print(mpm.strengthReduction(tolerance=0.2)['lower'] > 1)"))
+	assert 'True' in first.stdout, first.stdout
+	again = scene + 'O.run(2, wait=True)\n' + save + '\nO.run(4, wait=True)\nimport zlib\n'
+	state = "print('state', zlib.crc32(mpm.arrays()['pos'].tobytes()), zlib.crc32(mpm.arrays()['stress'].tobytes()))\n"
+	whole = yade(again + state)
+	resumed = yade('from yade import mpm\nimport zlib\n' + load + state)
+	of = lambda run: re.search(r'^state .*$', run.stdout, re.MULTILINE)[0]
+	assert of(whole) == of(resumed)
+	yade(scene + record + 'assert base.motion.history\n')
+	yade(scene + paraview)
+	assert (yade.folder / 'out/slope.py').exists()
+
+
 tutorials = sorted((root / 'plugin/docs/tutorials').glob('*.md'))
 
 
