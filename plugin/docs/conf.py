@@ -29,7 +29,8 @@ html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'descriptio
 html_sidebars = {'**': ['about.html', 'searchbox.html', 'localtoc.html', 'navigation.html']}
 html_copy_source = False
 html_search_scorer = str(pathlib.Path(__file__).parent / 'search.js')
-en.english_stopwords.update('can do does from get have how its must should what when where which who why you your'.split())  # words of questions, which no page need have
+# words of questions, which no page need have
+en.SearchEnglish.stopwords = en.SearchEnglish.stopwords | set('can do does from get have how its must should what when where which who why you your'.split())
 
 
 def copyViews(app, failure):

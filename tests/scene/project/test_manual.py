@@ -68,7 +68,7 @@ def test_the_search_finds_the_page_of_questions(made, yade):
 	index = json.loads((htmlPages / 'searchindex.js').read_text().removeprefix('Search.setIndex(').removesuffix(')'))
 	number = index['docnames'].index('plugin/docs/questions')
 	language = (htmlPages / '_static/language_data.js').read_text()
-	left = set(json.loads(re.search(r'stopwords = (\[.*?\])', language)[1]))
+	left = set(json.loads(re.search(r'stopwords = (?:new Set\()?(\[.*?\])', language, re.DOTALL)[1]))
 	assert {'which', 'how', 'why', 'the'} <= left and 'plugin\\/docs\\/questions' in language
 	found = lambda table, word: number in (entry if isinstance(entry := table.get(word, []), list) else [entry])
 	questions = re.findall(r'^## (.*)$', (root / 'plugin/docs/questions.md').read_text(), re.MULTILINE)
