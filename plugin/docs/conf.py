@@ -25,9 +25,10 @@ myst_update_mathjax = False  # it writes settings for MathJax 3; Debian has vers
 mathjax2_config = {'tex2jax': {'processClass': 'math'}}
 mathjax_path = 'mathjax/MathJax.js?config=TeX-AMS_CHTML'
 html_theme = 'alabaster'
-html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'description': 'Reference and course'}
+html_theme_options = {'page_width': '1160px', 'sidebar_width': '270px', 'fixed_sidebar': True, 'description': 'Reference and course'}
 html_sidebars = {'**': ['about.html', 'searchbox.html', 'localtoc.html', 'navigation.html']}
 html_copy_source = False
+html_show_copyright = False
 html_search_scorer = str(pathlib.Path(__file__).parent / 'search.js')
 # words of questions, which no page need have
 en.SearchEnglish.stopwords = en.SearchEnglish.stopwords | set('can do does from get have how its must should what when where which who why you your'.split())
@@ -54,8 +55,7 @@ latex_elements = {
 
 
 def tagEquations(app, doctree, page):
-	"""Equations with a number of their own, as (C1), which LaTeX does not admit in the environment that Sphinx puts around formulas."""
-	if app.builder.name != 'latex': return
+	"""Equations with a number of their own, as (C1), which neither LaTeX nor MathJax admits in the environment that Sphinx puts around formulas."""
 	for node in doctree.findall(nodes.math_block):
 		if r'\tag' not in node.astext(): continue
 		node['nowrap'] = True

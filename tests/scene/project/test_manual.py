@@ -57,6 +57,9 @@ def test_links_and_pictures_of_the_pages_are_there(made, yade):
 			pictures += target.suffix == '.png'
 			if not target.exists() or anchor and target in pages and anchor not in pages[target].anchors: broken.append(f'{path.relative_to(htmlPages)}: {link}')
 	assert not broken and len(pages) > 100 and pictures > 60
+	for path in (htmlPages / 'plugin/docs/explanation').glob('*.html'):
+		shown = path.read_text().split('<div class="math ')[1:]
+		assert not [text[:80] for text in shown if r'\tag' in text.partition('</div>')[0] and r'\begin{equation*}' not in text.partition('</div>')[0]], path
 	assert 'plugin/docs/index.html' in (htmlPages / 'index.html').read_text()
 	assert {'MpmImplicitEngine', 'yade.mpm.fill', 'yade.mpm.stages.excavate'} <= pages[htmlPages / 'build/docs/reference.html'].anchors
 
