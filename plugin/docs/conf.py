@@ -58,7 +58,7 @@ def tagEquations(app, doctree, page):
 	"""Equations with a number of their own, as (C1), which neither LaTeX nor MathJax admits in the environment that Sphinx puts around formulas."""
 	for node in doctree.findall(nodes.math_block):
 		if r'\tag' not in node.astext(): continue
-		node['nowrap'] = True
+		node['nowrap'] = node['no-wrap'] = True  # name up to Sphinx 8.1, and since
 		node.children = [nodes.Text(r'\begin{equation*}' + node.astext() + r'\end{equation*}')]
 
 
