@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes README.md and the pictures of a folder of results: every number of ours is read from the tables in its folder results/."""
+"""Writes README.md and the pictures of a folder of results: every number of ours is read from the tables in its folder results/. With --kept that page is a short one, and all tables go to a page of the studies."""
 import argparse
 import csv
 import math
 import os
+import re
 import sys
 
 import numpy as np
@@ -12,11 +13,14 @@ import pictures
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
+import studies
 from pages import number, table
 
 options = argparse.ArgumentParser(description=__doc__)
 options.add_argument('--out', default='out/paper', help='folder of the results (default %(default)s)')
-folder = options.parse_args().out
+options.add_argument('--kept', metavar='FOLDER', help='folder for the page of the studies, paper.md, beside a short README.md')
+options = options.parse_args()
+folder = options.out
 
 
 def read(path):
@@ -335,14 +339,14 @@ returns to that of plain GIMPM, and on coarse ones it outweighs the material, so
 
 introduction = '''# The paper, side by side
 
-Figures and tables of W.M. Coombs (2023): *A ghost-stabilised material point method for large deformation geotechnical analysis*, NUMGE 2023, run in YADE
-with this plugin by `scripts/reproduce all`, which writes this page, the pictures and the tables in `results/` to `out/paper` (a few minutes; see
-`scripts/reproduce --help`). Iterations in the tables are linear solves; on this page they are counted as in the paper, with one first pass without solve.
+Figures and tables of W.M. Coombs (2023), *A ghost-stabilised material point method for large deformation geotechnical analysis*, NUMGE 2023, are computed with this plugin. The comparison shows that the plugin has the method of the paper. Iterations are counted as in the paper: linear solves, and one first pass without solve.
 
 ## Run it
 
     scripts/reproduce all                   # 4 minutes
     scripts/reproduce fig2                  # the picture below: fig4, table1, table2, fig6, fig7, scaling are the others
+
+`scripts/reproduce` writes a page with all figures and tables to `out/paper`.
 '''
 
 picture = '''## Picture
@@ -352,9 +356,73 @@ picture = '''## Picture
 
 change = '''## What to change
 
-The scripts of this folder take `--quick` for a coarse run and `--out` for another folder. The slope of the paper with cells, points and stabilisation of your own is [slope](../slope/README.md), the column [column](../column/README.md).
+The scripts of this folder take `--quick` for a coarse run and `--out` for another folder. The [slope](../slope/README.md) and the [column](../column/README.md) of the paper have cells, points and stabilisation of your own.
 '''
 
-sections = [introduction, figure2() and picture, '## Numbers\n', figure2(), figure4(), table1(), table2(), figures67(), scaling(), change]
-pages.write(folder, [section for section in sections if section])
+
+def summary():
+	"""Results of the paper beside ours, one line each."""
+	offsets = results('fig2')
+	condition = {name: kappa(max(row[name] for row in offsets)) for name in ('mpm', 'gimp', 'ghost')}
+	allOrders = [order for n in (2, 4) for ghost in ghosts for order in orders([point for point in errorsByCells(results('fig4'), n, ghost, lambda cells: 40) if point[0] <= 32])]
+	stabilised, plain = ([row for row in slopes if row['factor'] == factor and (1, *(row[k] for k in slopeKey)) in paper] for factor in (0.01, 0))
+	ended = lambda rows: f'{sum(map(completed, rows))} of {len(rows)} complete'
+	printed = lambda rows: f"{sum(not published(1, row).startswith('fails') for row in rows)} of {len(rows)} complete"
+	factors = [row['factor'] for row in slopes if (2, *(row[k] for k in slopeKey)) in paper and completed(row)]
+	ratios = {name: np.mean([row['oscillation'] for row in rows]) for name, rows in oscillations().items()}
+	scaled = {ghost: [row['conditionNumber'] for row in results('scaling') if row['ghost'] == ghost] for ghost in ghosts}
+	spread = {ghost: max(values) / min(values) for ghost, values in scaled.items()}
+	return table(['', 'paper', 'ours'], [
+	        ['figure 2: largest condition number, MPM, GIMPM, GIMPM with ghost', 'bounded, unbounded, bounded', f"{condition['mpm']}, {condition['gimp']}, {condition['ghost']}"],
+	        ['figure 4: order of the stress error of the column, up to 32 cells', 'between 1 and 2', between(allOrders)],
+	        ['table 1: runs of the slope with ghost stabilisation', printed(stabilised), ended(stabilised)],
+	        ['table 1: the same without', printed(plain), ended(plain)],
+	        ['table 2: least ghost factor with which the slope completes', '1e-08', f'{min(factors):g}'],
+	        ['figures 6 and 7: stress oscillation along the face, without over with ghost', 'removed (by eye)', f"{ratios['none'] / ratios['ghost']:.2f}"],
+	        ['scaling of the ghost stabilisation, cells of 1 mm to 1 km: largest over least condition number', '', f"h³ (paper) {spread['paper']:.4g}, h¹ {spread['mesh-independent']:.4g}"],
+	])
+
+
+def oscillations():
+	"""Steps that both runs of figures 6 and 7 completed."""
+	found = {}
+	for name, factor in ('none', 0), ('ghost', 0.01):
+		run = min((row for row in slopes if row['pointsPerCell'] == 4 and row['factor'] == factor), key=lambda row: row['cellSize'])
+		found[name] = [row for row in results('slope-steps') if row['lineSearchTrials'] == 0 and all(row[k] == run[k] for k in slopeKey)]
+	least = min(map(len, found.values()))
+	return {name: rows[:least] for name, rows in found.items()}
+
+
+def shortTable1():
+	by = {tuple(row[k] for k in slopeKey): row for row in slopes}
+	cases = sorted({key[:2] for key in by if (1, *key) in paper}, key=lambda case: (-case[0], case[1]))
+	cells = lambda h, n: [text for factor in (0, 0.01) for text in (published(1, by[h, n, factor]), outcome(by[h, n, factor]))]
+	return table(['h [m]', 'points per cell', 'paper, without', 'ours, without', 'paper, with ghost', 'ours, with ghost'], [[f'{h:g}', f'{n:g}²', *cells(h, n)] for h, n in cases])
+
+
+def keptPages(sections):
+	"""The short page, and that of the studies, whose links need the way from there."""
+	short = [introduction, picture, '## Numbers\n', summary(), numbers, shortTable1(), notes, change]
+	pages.write(folder, short)
+	moved = lambda link: f'{link[1]}{os.path.relpath(os.path.join(here, link[2]), studies.home)})'
+	pages.write(options.kept, [studies.conclusionOf('paper'), '', *(re.sub(r'(\]\()([^)#\s]+)\)', moved, section).replace('### ', '## ') for section in sections if section)], 'paper.md')
+
+
+numbers = '''
+Table 1, mean (largest) iterations of a load step of the slope:
+'''
+
+notes = '''
+With ghost stabilisation all runs complete, and mean iterations differ from the paper by at most 0.22. Counts depend on details that the paper does not print, such as the norm of the residual. Without stabilisation some systems are singular to working precision, and round-off decides which runs fail. The plugin refuses such systems; MATLAB solves them with a warning.
+
+![Figure 7](fig7.png)
+
+The paper multiplies the ghost terms by h³. Then they vanish on fine grids and outweigh the material on coarse ones. The default of the plugin, h¹, does not depend on the cells.
+
+[The study](../../plugin/docs/studies/paper.md) has all figures and tables.
+'''
+
+computed = [figure2(), figure4(), table1(), table2(), figures67(), scaling()]
+if options.kept: keptPages(computed)
+else: pages.write(folder, [section for section in [introduction, computed[0] and picture, '## Numbers\n', *computed, change] if section])
 print(f'written: {inFolder("README.md")}')

@@ -20,8 +20,8 @@ def numbers(path, *columns):
 	return [tuple(float(row[name]) for name in columns) for row in rows(path)]
 
 
-def writePage(folder):
-	subprocess.run(['/usr/bin/python3', paper / 'page.py', '--out', folder], check=True, stdout=subprocess.DEVNULL)
+def writePage(folder, *options):
+	subprocess.run(['/usr/bin/python3', paper / 'page.py', '--out', folder, *options], check=True, stdout=subprocess.DEVNULL)
 	return (folder / 'README.md').read_text()
 
 
@@ -106,9 +106,12 @@ def test_the_page_of_an_interrupted_run(tmp_path):
 	assert '## Figure 4' in page and '## Beyond the paper' in page
 
 
-def test_the_kept_page_is_made_from_the_kept_tables(tmp_path):
+def test_the_kept_pages_are_made_from_the_kept_tables(tmp_path):
+	"""The short page of the example, and that of the study with all tables."""
 	shutil.copytree(paper / 'results', tmp_path / 'results')
-	assert writePage(tmp_path) == (paper / 'README.md').read_text()
+	assert writePage(tmp_path, '--kept', tmp_path) == (paper / 'README.md').read_text()
+	study = (tmp_path / 'paper.md').read_text()
+	assert study == (root / 'plugin/docs/studies/paper.md').read_text() and all(f'## {section}' in study for section in ('Figure 2', 'Table 1', 'Table 2'))
 
 
 def test_wrong_arguments_are_refused():
