@@ -28,15 +28,15 @@ def write(folder, results):
 	pages.write(folder, [INTRODUCTION.format(**results['machine']), *tables(results), CHANGE])
 
 
-def tables(results, without=()):
-	return [section(results[name]) for name, section in sections.items() if name in results and name not in without]
+def tables(results):
+	return [section(results[name]) for name, section in sections.items() if name in results]
 
 
 def writeKept(folder, home=studies.home):
-	"""The page of the example, which has times of whole scenes only, and that of the study, from the kept results."""
+	"""The page of the example, which has times of whole scenes only, and that of the study, which has all parts, from the kept results."""
 	results = load(folder)
-	pages.write(folder, [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(here, 'findings.md')), scenes(results['scenes']), CHANGE])
-	pages.write(home, [studies.conclusionOf('benchmarks', results['machine']), '', *(part.replace('### ', '## ') for part in tables(results, ['scenes']))], 'benchmarks.md')
+	pages.write(folder, [INTRODUCTION.format(**results['machine']), FINDINGS, short(results['scenes']), CHANGE])
+	pages.write(home, [studies.conclusionOf('benchmarks', results['machine']), '', *(part.replace('### ', '## ') for part in tables(results))], 'benchmarks.md')
 
 
 def machine():
@@ -88,6 +88,12 @@ def scenes(results):
 	heads = ['scene', 'points', 'unknowns', 'threads', 'Newton', 'solves a step', 'factorisations a step', 'run [s]', *phases,
 	         'assembly [ns per point and pass]', 'factorisation [GFLOP/s]', 'all that is YADE']
 	return SCENES + table(heads, rows)
+
+
+def short(results):
+	"""Whole scenes, with the parts that take most of the time."""
+	rows = [[r['name'], r['points'], r['unknowns'], r['threads'], 'default' if r['predictor'] else 'full', f"{r['solves'] / r['steps']:.2f}", f"{r['run']:.1f}", f"{r['times']['assembly']:.1f}", f"{r['times']['factorise']:.1f}"] for r in results]
+	return SHORT + table(['scene', 'points', 'unknowns', 'threads', 'Newton', 'solves a step', 'run [s]', 'assembly', 'factorise'], rows)
 
 
 def sizes(results):
@@ -278,7 +284,7 @@ def table(heads, rows):
 
 INTRODUCTION = """# Where time and memory go
 
-`scripts/bench` measures this page (see `--help`), from the parts of a load step to whole scenes; its numbers are in `results/bench.json`. Machine:
+`scripts/bench` measures time and memory (see `--help`), from the parts of a load step to whole scenes. Numbers are in `results/bench.json`. Machine:
 {processor}, {processors} processors. Revision: {revision}.
 
 ## Run it
@@ -291,6 +297,21 @@ INTRODUCTION = """# Where time and memory go
 ![Iterations of the solvers over the cut, with the stabilisation and without: a beam that cuts the cells in all ways](solvers.png)
 
 ## Numbers
+"""
+
+FINDINGS = """- **A pass over the points** takes 32 ns a point without and 72 ns with stiffness in 2D, 0.10 and 0.58 microseconds in 3D.
+- **Newton's method**: predictor and reuse of the factor (`newton.predictor`, `newton.reuseFactor`) save two fifths of the time.
+- **Two threads** save a third of assembly, update and gathering.
+- **In 3D** conjugate gradients take over from some 30,000 unknowns on (`newton.linearSolver`). A load step of a million points takes 27 s with two threads (`scripts/bench --large`).
+- **Algebraic multigrid** suits slender bodies that bend; it needs the ghost stabilisation.
+- **Memory** is 2.2 KiB a point, of which 1.3 are the body of YADE; 3.2 KiB in 3D at the peak of a step.
+- **Filling** a million points takes 4.1 s, appending a million spheres 27 s.
+
+[The study](../../plugin/docs/studies/benchmarks.md) has all parts: phases of a load step, sizes, features, solvers, several processes.
+"""
+
+SHORT = """A slope with h = 0.25 m, all 160 steps, and a slice of it in 3D, its first 20 steps. Newton `full` factorises in each iteration; `default` has predictor and reuse of the factor.
+
 """
 
 CHANGE = """

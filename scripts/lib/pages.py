@@ -25,13 +25,6 @@ def table(heads, rows):
 	return '\n'.join(f"| {' | '.join(map(str, row))} |" for row in [heads, ['---'] * len(heads), *rows])
 
 
-def texts(path):
-	"""Text of a file, as a list of one text; empty if there is no such file."""
-	if not os.path.exists(path): return []
-	with open(path) as file:
-		return [file.read()]
-
-
 def replace(path, text):
 	"""Write a file at once and as a whole."""
 	with open(path + '.new', 'w') as file:
