@@ -93,7 +93,7 @@ def compared(rows):
 def introduction(rows):
 	return f'''# Stability at the extremes
 
-{len(listed())} parameters, driven until the method breaks down: {len(rows):,} cases by `scripts/extremes`, in 2D and 3D, without ghost stabilisation, with it (mesh-independent, h¹) and in the paper's scaling (h³). All cases: [study](../../plugin/docs/studies/extremes.md). Safe: it runs without a cut step, with an error of at most 5 % or three times the smallest.
+How far can a parameter go before the method breaks down? `scripts/extremes` drives {len(listed())} parameters to extremes in {len(rows):,} cases, in 2D and 3D: without ghost stabilisation, with it (mesh-independent, h¹), and in the scaling of the paper (h³). Safe means: no step is cut, and the error is at most 5 % or three times the smallest. [The study](../../plugin/docs/studies/extremes.md) has all cases.
 
 ## Run it
 
@@ -113,21 +113,21 @@ def text(rows):
 	scaled = [f"{at('softeningGrid', f'{cells}/scaled')['measured']:.2f}" for cells in (8, 16, 32)]
 	return f'''**Three settings worth knowing**
 
-1. **`MpmGhost()`, as it is** (`factor=1e-2`): of {count} parameters {safe[default]} are safe throughout; without it {safe['none']}, in the paper's scaling {safe['paper']}. Cases that do not run: {percent(failed[default])}, {percent(failed['none'])} and {percent(failed['paper'])}. Overlaps of 1e-15 of a cell, cells of 1e-7 to 1e7 m, any modulus and rotations of 90° in a step are no matter.
-2. **2 x 2 points a cell, not one**: one has an error of {error('points', '1')} instead of {error('points', '2')} in the column ({at('points', '1', ghost='none')['failure']} without stabilisation), and is {at('contactClamped', '1')['failure']} where pressed soil grows aside (2 x 2: {error('contactClamped', '2')}).
-3. **`fBar=True` for Poisson's ratios from .45 on**: a bent bar is off by {error('bendingFBar', '0.49')} at .49, {error('bendingFBar', '0.499999')} at .499999; without by {error('bending', '0.49')}, {error('bending', '0.499999')}. Not for yield stresses below {rangeOf(rows, 'yieldFBar', default).split()[-1]} of the modulus.
+1. **`MpmGhost()`, as it is** (`factor=1e-2`): of {count} parameters {safe[default]} are safe throughout; without it {safe['none']}, in the paper's scaling {safe['paper']}. Cases that do not run: {percent(failed[default])}, {percent(failed['none'])} and {percent(failed['paper'])}. Overlaps of 1e-15 of a cell, cells of 1e-7 to 1e7 m, any modulus and rotations of 90° in a step do no harm.
+2. **2 x 2 points a cell, not one**: one has an error of {error('points', '1')} instead of {error('points', '2')} in the column ({at('points', '1', ghost='none')['failure']} without stabilisation). Pressed soil that grows aside: {at('contactClamped', '1')['failure']} (2 x 2: {error('contactClamped', '2')}).
+3. **`fBar=True` for Poisson's ratios from 0.45 on**: the error of a bent bar is {error('bendingFBar', '0.49')} at 0.49 and {error('bendingFBar', '0.499999')} at 0.499999; without it {error('bending', '0.49')}, {error('bending', '0.499999')}. Not for yield stresses below {rangeOf(rows, 'yieldFBar', default).split()[-1]} of the modulus.
 
-**Wrong without a word**: these run through
+**Wrong without an error message**
 
-- Layers of different stiffness that move through the grid: stresses beside their boundary are off by {error('mixed', '10.0')} at a contrast of 10, {error('mixed', '100.0')} at 100. `mpm.advise` warns of it.
+- Layers of different stiffness that move through the grid: the error of stresses beside their boundary is {error('mixed', '10.0')} at a contrast of 10, {error('mixed', '100.0')} at 100. `mpm.advise` warns of it.
 - A contact's `stiffness` of 10: {error('contactPenalty', '10.0')} (100: {error('contactPenalty', '100.0')}). A contact one cell wide: {error('contactRadius', '1')} (two: {error('contactRadius', '2')}). `ghost.factor=100`: {error('factor', '100.0')} (1e-2: {error('factor', '0.01')}).
 - Softening with the same `hardening` on all grids: {', '.join(kept[:-1])} and {kept[-1]} of the load with 8, 16 and 32 cells; in proportion to the cells {', '.join(scaled[:-1])} and {scaled[-1]}.
 
 **Never worth it**
 
-- No stabilisation: a point shifted by a tenth of half its spacing is enough ({at('jitter', '0.1', ghost='none')['failure']}); of {len(through('turns', 'none'))} bars that turn {sum(through('turns', 'none'))} come to their end, of {len(through('sandSlope', 'none'))} slopes of sand {sum(through('sandSlope', 'none'))} (with it {sum(through('turns', default))} and {sum(through('sandSlope', default))}).
-- `scaling='paper'`: the same at cells of a metre; at 100 m the error is {error('length', '100.0', ghost='paper')} (h¹: {error('length', '100.0')}), of the slopes of sand, at .1 m, {sum(through('sandSlope', 'paper'))} come to their end.
-- A `ghost.factor` of one's own: from 1e-4 to 1 the column takes {span(solves)} solves a step, and its error is {percent(columns['0.01']['error'])} with 1e-2, {percent(columns['1']['error'])} with 1.
+- No stabilisation: a point shifted by a tenth of half its spacing is enough to fail ({at('jitter', '0.1', ghost='none')['failure']}); of {len(through('turns', 'none'))} bars that turn {sum(through('turns', 'none'))} come to their end, of {len(through('sandSlope', 'none'))} slopes of sand {sum(through('sandSlope', 'none'))} (with it {sum(through('turns', default))} and {sum(through('sandSlope', default))}).
+- `scaling='paper'`: the same with cells of a metre. With cells of 100 m the error is {error('length', '100.0', ghost='paper')} (h¹: {error('length', '100.0')}); with cells of 0.1 m {sum(through('sandSlope', 'paper'))} slopes of sand come to their end.
+- Another `ghost.factor`: from 1e-4 to 1 the column takes {span(solves)} solves a step, and its error is {percent(columns['0.01']['error'])} with 1e-2, {percent(columns['1']['error'])} with 1.
 '''
 
 

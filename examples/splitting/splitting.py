@@ -163,7 +163,7 @@ def draw():
 		press(points, maxSplits, 70)
 		at, ax = mpm.arrays(), blocks.pop(0)
 		for x, half in zip(at['pos'], at['halfSize']): ax.add_patch(plt.Rectangle((x - half)[:2], *(2 * half[:2]), facecolor='tab:blue', alpha=0.45, edgecolor='k', linewidth=0.6))
-		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.6), xticks=np.arange(0, 2.6, 0.25), yticks=np.arange(0, 0.6, 0.25), title=text + ', at .4')
+		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.6), xticks=np.arange(0, 2.6, 0.25), yticks=np.arange(0, 0.6, 0.25), title=text + ', at 0.4 of the height')
 		ax.grid(linewidth=0.5)
 	forces.set(xlabel='height over that at first', ylabel='force over the closed form', xlim=(1, 0.15), ylim=(0, 1.2))
 	forces.legend(frameon=False, fontsize=8)

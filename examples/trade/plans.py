@@ -157,7 +157,7 @@ plans = {
                         together=dict(cells=['5', '10', '20', '40'], steps=['10', '20', '40', '80']),
                         alone=dict(cut=['0.1', '0.9'], stabilisation=['0', '0.1', '3'], skin=['3', '10', '100', '1000']), around=[dict(cells='10', steps='80'), dict(cells='20', steps='40')],
                         quick=dict(cells=['5'], steps=['10']),
-                        words=dict(cells='cells over the height', steps='steps to T = 1', error='degree of consolidation from T = .02 on')),
+                        words=dict(cells='cells over the height', steps='steps to T = 1', error='degree of consolidation from T = 0.02 on')),
         'circle':
                 Plan(
                         script=os.path.join(here, '..', 'axisymmetric', 'axisymmetric.py'), errors=['error'], parameters=dict(scene="'rough'", cells='4', steps='16', out="'out'"),
