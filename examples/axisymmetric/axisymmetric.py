@@ -137,9 +137,7 @@ def report(name, curve, seconds, reference):
 
 
 def picture(curves, radius, stress):
-	import matplotlib # takes longer than the footing on coarse grids, whose time scripts/trade measures
-	matplotlib.use('Agg')
-	import matplotlib.pyplot as plt
+	from style import plt # takes longer than the footing on coarse grids, whose time scripts/trade measures
 	figure, (ring, loads, section) = plt.subplots(1, 3, figsize=(14, 4), width_ratios=[1, 1, 1.5], layout='constrained')
 	order = np.argsort(radius)
 	for i, name in (0, 'radial'), (2, 'hoop'):
@@ -147,12 +145,12 @@ def picture(curves, radius, stress):
 	ring.plot(radius[order], 2 * np.log(radius[order] / 2), 'k--', linewidth=0.9, label='$2 \\ln(r / b)$ and that $+ 2$')
 	ring.plot(radius[order], 2 * np.log(radius[order] / 2) + 2, 'k--', linewidth=0.9)
 	ring.set(xlabel='r / a', ylabel='stress / $c_u$', title='tube at collapse')
-	for (name, curve, reference), colour in zip(curves, ('tab:blue', 'tab:orange')):
+	for (name, curve, reference), colour in zip(curves, ('C0', 'C1')):
 		loads.plot(100 * curve[0], curve[1], color=colour, label=name)
 		loads.axhline(reference, color=colour, linestyle='--', linewidth=0.9, label=f'{name}, published: {reference}')
 	loads.set(xlabel='settlement / diameter [%]', ylabel='load / (area $c_u$)', xlim=(0, None), ylim=(0, None), title='circular footing')
 	for axes in ring, loads:
-		axes.legend(frameon=False, fontsize=8)
+		axes.legend(frameon=False)
 	mpm.plot('displacement', ax=section)
 	section.plot([0, R], [0.03 - options.settlement * 2 * R] * 2, 'k-', linewidth=5, solid_capstyle='butt')
 	section.set(title='rough footing: section, the axis on the left')

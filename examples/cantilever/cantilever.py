@@ -18,12 +18,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Elastic cantilever with large rotations.',
         cells=(4, 'cells over the thickness, an even number'),
@@ -80,7 +78,7 @@ for k, (w, u) in published.items():
 figure, (shape, curve) = plt.subplots(1, 2, figsize=(9.5, 4.6), width_ratios=[1, 1.3], layout='constrained')
 mpm.plot('stress_xx', ax=shape)
 shape.set(title=f'$P L^2 / (E I) = {end:g}$')
-for values, row, label, colour in (down, 0, 'down', 'tab:blue'), (back, 1, 'back', 'tab:orange'):
+for values, row, label, colour in (down, 0, 'down', 'C0'), (back, 1, 'back', 'C1'):
 	curve.plot(values, load, color=colour, label=f'tip {label}')
 	curve.plot([published[k][row] for k in published], list(published), 'o', color=colour, label=f'elastica, {label}')
 curve.set(xlabel='movement of the tip / L [-]', ylabel='load $P L^2 / (E I)$ [-]', xlim=(0, 0.9), ylim=(0, None))

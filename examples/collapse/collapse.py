@@ -20,12 +20,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Vertical cut in undrained clay under growing gravity.',
         cellSize=(0.25, 'h [m], a part of 5 m'),
@@ -87,18 +85,18 @@ print(f'the cut fails at N = {failed:.3f}, limit analysis: {lower} to {upper} (d
 compared(f'stability number of the vertical cut, {5 / options.cellSize:g} cells over the height', failed, (lower + upper) / 2, 'Kammoun et al. 2010, limit analysis')
 print(f'at N = {factor[-1]:.2f}: crest settles by {settlement[-1]:.4f} m, front moves by {front[-1]:.4f} m')
 
-figure, (curve, shape) = plt.subplots(1, 2, figsize=(12.5, 4.4), width_ratios=[1, 1.9], layout='constrained')
+figure, (curve, shape) = plt.subplots(1, 2, figsize=(12.5, 5), width_ratios=[1, 1.9], layout='constrained')
 curve.plot(front, factor, label='front, forwards')
 curve.plot(settlement, factor, label='crest, downwards')
 curve.axhline(upper, color='k', linestyle='--', linewidth=0.8, label='limit analysis, 3.78')
-curve.plot(0.01 * H, failed, 'o', color='tab:blue', markersize=5, label=f'front at H / 100: N = {failed:.2f}')
+curve.plot(0.01 * H, failed, 'o', color='C0', markersize=5, label=f'front at H / 100: N = {failed:.2f}')
 curve.set(xlabel='movement [m]', ylabel='stability number $N = \\gamma H / c_u$', ylim=(0, None), xlim=(0, None))
-curve.legend(frameon=False, fontsize=8, loc='lower right')
+curve.legend(frameon=False, loc='lower right')
 mpm.plot('plasticStrain', ax=shape, range=(0, 1))
 shape.plot([0, L, L], [H, H, 0], 'k--', linewidth=0.8, label='initial outline')
 curve.set_title('How far the cut has moved', fontsize='medium')
-shape.set(xlim=(-0.2, L + 2.8), ylim=(-0.2, H + 0.6))
+shape.set(xlim=(-0.2, L + 2.8), ylim=(-0.2, H + 1.5))
 shape.set_title(f'Plastic strain at load factor N = {factor[-1]:.2f}', fontsize='medium')
-shape.legend(frameon=False, fontsize=8, loc='upper right')
+shape.legend(frameon=False, loc='upper right')
 figure.savefig(os.path.join(options.out, 'collapse.png'), dpi=130)
 print(f'written: {options.out}/collapse.png, collapse.csv, for the browser collapse.html, and for ParaView {options.out}/collapse-points.pvd')

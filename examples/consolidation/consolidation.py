@@ -14,12 +14,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Consolidation.',
         scene=('all', "'all', or one of 'terzaghi', 'large', 'mandel' and 'strip'"),
@@ -180,21 +178,21 @@ def picture(profiles, largeCurve, mandelCurve, stripResult):
 		exact = sum(2 / m * np.sin(m * (1 - y)) * np.exp(-m * m * T) for m in odd)
 		axes[0, 0].plot(exact, y, color='grey', linewidth=.8)
 		axes[0, 0].plot(p[order], place[order], '.', markersize=4, label=f'T = {T:.2g}')
-	axes[0, 0].set(xlabel='excess pressure over the load', ylabel='height', title='Terzaghi: points, and series')
-	axes[0, 0].legend(fontsize=8)
+	axes[0, 0].set(xlabel='excess pressure / load [-]', ylabel='height / first height [-]', title='Terzaghi: points, and series')
+	axes[0, 0].legend()
 	T, found, known = largeCurve
-	axes[0, 1].plot(T, found, label='settlement over height')
+	axes[0, 1].plot(T, found, label='MPM')
 	axes[0, 1].plot(list(known), list(known.values()), 'o', label='finer method in one dimension')
-	axes[0, 1].set(xlabel='T', title='Load of a fifth of the stiffness')
+	axes[0, 1].set(xlabel='time factor T [-]', ylabel='settlement / height [-]', title='Load of a fifth of the stiffness')
 	axes[0, 1].legend()
-	axes[1, 0].plot(mandelCurve[:, 0], mandelCurve[:, 1], 'o', markersize=4, label='middle of the slab')
+	axes[1, 0].plot(mandelCurve[:, 0], mandelCurve[:, 1], 'o', markersize=4, label='centre of the slab')
 	axes[1, 0].plot(mandelCurve[:, 0], mandelCurve[:, 2], color='grey', linewidth=.8, label='series')
-	axes[1, 0].set(xlabel='T', ylabel='excess pressure over F/a', title='Mandel')
+	axes[1, 0].set(xlabel='time factor T [-]', ylabel='excess pressure / (F/a) [-]', title='Mandel')
 	axes[1, 0].legend()
 	curve, points, q = stripResult
 	drawn = axes[1, 1].scatter(*points['pos'][:, :2].T, c=points['excessPressure'] / q, s=9, marker='s')
-	figure.colorbar(drawn, ax=axes[1, 1], label='excess pressure over the load', shrink=.7)
-	axes[1, 1].set(aspect='equal', title='Strip load (0 to 1 m), after the first step')
+	figure.colorbar(drawn, ax=axes[1, 1], label='excess pressure / load [-]', shrink=.7)
+	axes[1, 1].set(aspect='equal', xlabel='x [m]', ylabel='y [m]', title='Strip load (0 to 1 m), after the first step')
 	figure.tight_layout()
 	figure.savefig(os.path.join(options.out, 'consolidation.png'), dpi=100)
 

@@ -16,12 +16,10 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
+from style import plt
 
 options = readOptions('Debris on terrain, against a wall.',
         cellSize=(0.5, 'h [m]'),

@@ -5,16 +5,14 @@ import math
 import os
 import sys
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import scenes
 import stresses
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('scripts', 'lib'), ('plugin', 'python', 'mpm', 'analysis'))]
+sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('examples', ), ('scripts', 'lib'), ('plugin', 'python', 'mpm', 'analysis'))]
 import pages
 import studies
+from style import plt
 from refinement import errorOf
 
 
@@ -62,22 +60,22 @@ def within(ratios, factor=2):
 
 
 def picture(cases, found, path):
-	figure, both = plt.subplots(1, 2, figsize=(11, 5), layout='constrained')
+	figure, both = plt.subplots(1, 2, figsize=(14, 7), layout='constrained')
 	exact = [scenes.scenes[case['scene']].against != scenes.smaller for case in cases]
 	for chosen, mark, label in (True, 'o', 'known answer'), (False, 's', 'answer of smaller cells'):
 		some = [case for case, isExact in zip(cases, exact) if isExact == chosen]
 		both[0].loglog([case['true'] for case in some], [case['estimate'] for case in some], mark, markersize=4, label=label)
-	both[0].set(xlabel='true error, relative', ylabel='estimate', title=f'mpm.discretisationError: {len(cases)} cases')
+	both[0].set(xlabel='true error [-]', ylabel='estimate [-]', title=f'mpm.discretisationError: {len(cases)} cases')
 	for number, name in enumerate(stresses.scenes):
 		some = [row for row in found if row['scene'] == name]
-		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, color=plt.cm.tab20(number), label=name)
-	both[1].set(xlabel='true error of the stress, relative', ylabel='estimate', title=f'mpm.stressError: {len(found)} cases')
+		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'os^Dv'[number // 6] + '-', markersize=5, linewidth=0.7, color=f'C{number % 6}', label=name)
+	both[1].set(xlabel='true error of the stress [-]', ylabel='estimate [-]', title=f'mpm.stressError: {len(found)} cases')
 	for axes in both:
 		low, high = axes.get_xlim()
 		axes.plot((low, high), (low, high), 'k-', linewidth=0.8)
 		axes.fill_between((low, high), (low / 2, high / 2), (2 * low, 2 * high), color='0.92', label='factor of two', zorder=0)
 		axes.set(xlim=(low, high))
-		axes.legend(frameon=False, fontsize=7, loc='lower right', ncols=2)
+		axes.legend(frameon=False, loc='lower right', ncols=2)
 	figure.savefig(path, dpi=110)
 	plt.close(figure)
 

@@ -23,12 +23,10 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Active and passive earth pressure.',
         cells=(20, 'over the height of the wall'),

@@ -16,13 +16,11 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [os.path.join(here, '..'), os.path.join(here, '..', '..', 'scripts', 'lib')]
 from options import compared, readOptions
+from style import plt
 from results import Results, makeFolder
 
 options = readOptions('Earthquakes against closed forms.',

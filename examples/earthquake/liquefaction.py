@@ -6,9 +6,8 @@ import subprocess
 import sys
 import numpy as np
 from yade import mpm, pack
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
+from style import plt
 seconds, depth = [*map(float, sys.argv[1:]), *(4, 8)[len(sys.argv) - 1:]]
 out, here = 'out/earthquake', os.path.dirname(os.path.abspath(sys.argv[0]))
 os.makedirs(out, exist_ok=True)

@@ -17,12 +17,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('An embankment on soft clay, in stages.',
         cellSize=(0.5, 'size of the cells [m], at most 1'),

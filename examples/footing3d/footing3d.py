@@ -22,12 +22,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Rough rigid footing on undrained clay, strip and square.',
         cells=(3, 'cells over half the width of the footing, without the half cell at its edge'),
@@ -87,12 +85,12 @@ compared(f'square over strip, {B / h:g} cells over the width', curves[3][1].max(
 np.savetxt(os.path.join(options.out, 'footing3d.csv'), np.column_stack([*curves[2], curves[3][1]]), '%.6g', ',', header='settlement/B,strip,square', comments='')
 
 figure, (curve, shape) = plt.subplots(1, 2, figsize=(12.5, 4.2), width_ratios=[1, 1.5], layout='constrained')
-for dim, colour in (2, 'tab:blue'), (3, 'tab:orange'):
+for dim, colour in (2, 'C0'), (3, 'C1'):
 	name, reference = published[dim]
 	curve.plot(100 * curves[dim][0], curves[dim][1], color=colour, label=f'{name}, h = B / {B / h:g}')
 	curve.axhline(reference, color=colour, linestyle='--', linewidth=0.9, label=f'{name}, published: {reference:.2f}')
 curve.set(xlabel='settlement / B [%]', ylabel='load / (area $c_u$) [-]', xlim=(0, None), ylim=(0, None))
-curve.legend(frameon=False, fontsize=8, loc='lower right')
+curve.legend(frameon=False, loc='lower right')
 mpm.plot('displacement', ax=shape, plane=('z', h / (2 * options.pointsPerCell)))
 shape.plot([0, B / 2], [0.03 - options.settlement * B] * 2, 'k-', linewidth=5, solid_capstyle='butt', label='footing')
 shape.set(xlim=(-0.05, width + 0.05), ylim=(-depth - 0.05, 0.25), title='square footing, section near its middle')

@@ -20,11 +20,9 @@ import sys
 
 import numpy as np
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
+from style import plt
 
 options = readOptions('A pile driven by blows.',
         cellSize=(0.125, 'of the grid [m]'),

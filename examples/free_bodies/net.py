@@ -11,12 +11,10 @@ import sys
 
 import numpy as np
 from yade import gridpfacet, mpm, pack, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A net catches soil and grains.', falls=(0.12, 'until the soil is let come to rest [s]'), rests=(0.48, 'until the end [s]'), drop=(0.01, 'height that it falls from [m]'))
 n, spacing, radius, g = 5, 0.2, 0.01, 9.81

@@ -12,12 +12,10 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Grains poured onto soil.',
         grains=(200, 'number of grains, of 10 cm; 0: the plough alone'),

@@ -6,10 +6,9 @@ import subprocess
 import sys
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
+from style import plt
 
 out, steps = 'out/laboratory', int((sys.argv[1:] or [800])[0])
 os.makedirs(out, exist_ok=True)

@@ -15,12 +15,10 @@ import os
 import sys
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Laboratory tests on one material point of each law, against closed forms.', steps=(200, 'steps of a test'))
 

@@ -4,12 +4,10 @@
 import os
 import sys
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 options = readOptions('Lined tunnel.', cellSize=(0.5, '[m]'), volumeLoss=(0.01, 'part of the area of the tunnel'), poisson=(0.495, "Poisson's ratio of the ground"))
 h, R, depth, width, base = options.cellSize, 2.5, 7.5, 30, 20
 ring = [(R * np.sin(a), R * np.cos(a) - depth) for a in np.linspace(0, np.pi, 49)]  # half of it, from crown to invert
@@ -34,7 +32,7 @@ upper, lower = ((points['pos0'] - points['pos'])[row(k * h)][np.argsort(points['
 trough, lost = (1.5 * upper - 0.5 * lower).sum() * h, options.volumeLoss * np.pi * R**2  # volumes of both halves, at the surface
 print(f'trough {trough:.4f} m2, volume loss {lost:.4f} m2 ({100 * (trough / lost - 1):+.2f} %); it is {1e3 * upper[0]:.1f} mm deep')
 compared(f'volume of the trough, cells of {h:g} m, nu = {options.poisson:g}', trough, lost, 'volume loss', 'm2')
-figure, axes = plt.subplots(1, 3, figsize=(12, 4.5), layout='constrained')
-for ax, quantity in zip(axes, ('axialForce', 'shearForce', 'moment')):
-	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(0, 9), ylim=(-12, 0.2), title=quantity)
+figure, axes = plt.subplots(1, 3, figsize=(14, 5.2), layout='constrained')
+for ax, (quantity, title) in zip(axes, dict(axialForce='normal force', shearForce='shear force', moment='moment').items()):
+	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(0, 9), ylim=(-12, 0.2), title=title)
 figure.savefig(f'{options.out}/lined_tunnel.png')

@@ -4,12 +4,10 @@
 import os
 import sys
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 options = readOptions('Lined shaft.', cellSize=(0.5, '[m]'), K0=(0.5, 'horizontal over vertical stress at rest'), thickness=(0.4, 'of the lining of concrete [m]'))
 h, R, dug, wall, width, base = options.cellSize, 3, 12, 16, 30, 30
 young, nu, density, concrete, of = 5e7, 0.3, 2000, 30e9, 0.2
@@ -33,6 +31,6 @@ expected = -options.K0 * density * 10 * half * R / (1 + soil / ring)
 print(f'hoop force at half of what is dug {found / 1e3:.1f} kN/m, of a tube {expected / 1e3:.1f} kN/m ({100 * (found / expected - 1):+.1f} %); largest moment {max(map(abs, lining.moments)) / 1e3:.2f} kN m/m')
 compared(f'hoop force at half of what is dug, cells of {h:g} m', found, expected, 'tube in a pressed plane', 'N/m')
 figure, axes = plt.subplots(1, 2, figsize=(9, 5), layout='constrained')
-for ax, quantity in zip(axes, ('hoopForce', 'moment')):
-	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(0, 10), ylim=(-20, 0.5), title=quantity)
+for ax, (quantity, title) in zip(axes, dict(hoopForce='hoop force', moment='moment').items()):
+	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(0, 10), ylim=(-20, 0.5), title=title)
 figure.savefig(f'{options.out}/shaft.png')

@@ -5,13 +5,11 @@ import os
 import sys
 import time
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import curve_fit
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
+from style import plt
 laws = dict(constant="Mohr-Coulomb", hardening='hardening soil', smallStrain='hardening soil with small-strain stiffness')
 options = readOptions(
         'Troughs above a tunnel, by law.',

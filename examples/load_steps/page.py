@@ -4,16 +4,14 @@ import csv
 import os
 import sys
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullLocator
 from scenes import scenes
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+sys.path[:0] = [os.path.join(here, '..'), os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pages
 import studies
+from style import plt
 
 parts = 0.04, 0.02, 0.01, 0.005, 0.002  # stepTolerance over the displacement at the end
 
@@ -32,19 +30,19 @@ def cheapest(fixed, error):
 
 
 def picture(found, path):
-	figure, all = plt.subplots(2, 4, figsize=(13, 6.5), layout='constrained')
+	figure, all = plt.subplots(2, 4, figsize=(14.5, 7.5), layout='constrained')
 	for axes, (name, (fixed, chosen)) in zip(all.flat, found.items()):
 		for rows, mark, label in (fixed, 'o-', 'steps of one length'), (chosen, 's-', 'stepTolerance'):
 			axes.loglog([row['solves'] for row in rows], [100 * row['error'] for row in rows], mark, markersize=4, linewidth=0.8, label=label)
-		axes.set(title=scenes[name].what, xlabel='solves', ylabel='error [%]')
+		axes.set(title=scenes[name].what, xlabel='solves [-]', ylabel='error [%]')
 		for axis in axes.xaxis, axes.yaxis:
 			axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
 			axis.set_major_formatter('{x:g}')
 			axis.set_minor_locator(NullLocator())
-		axes.title.set_fontsize(9)
+		axes.title.set_fontsize(11)
 	for axes in all.flat[len(found):]:
 		axes.axis('off')
-	all.flat[0].legend(frameon=False, fontsize=8)
+	all.flat[0].legend(frameon=False)
 	figure.savefig(path, dpi=110)
 	plt.close(figure)
 

@@ -157,9 +157,7 @@ print(f'{name}: {len(O.bodies)} points, {solver.dofs} unknowns; {sum(solves)} it
 error = judge(*history)
 
 if options.picture:
-	import matplotlib
-	matplotlib.use('Agg')
-	import matplotlib.pyplot as plt
+	from style import plt
 	np.savetxt(os.path.join(options.out, 'locking.csv'), history.T, '%.6g', ',', header='movement,load', comments='')
 	figure, axes = plt.subplots(figsize=(7, 4.4), layout='constrained')
 	mpm.plot('meanStress', ax=axes, range=None if options.scene == 'beam' else (-6 * cu, cu), plane=('z', 1e-3) if options.scene == 'square' else None)

@@ -23,11 +23,9 @@ from math import inf, radians, sin
 
 import numpy as np
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A sheet pile of points against free earth support.',
         cellSize=(0.25, 'of the grid [m]'),

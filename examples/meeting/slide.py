@@ -19,11 +19,9 @@ from math import cos, inf, radians, sin, sqrt, tan
 
 import numpy as np
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A slide that runs into a dam.',
         cellSize=(0.25, 'of the grid [m]'),

@@ -20,11 +20,9 @@ from math import atan, cos, inf, pi, radians, sin
 
 import numpy as np
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A tyre of rubber on clay.',
         cells=(8, 'over the radius'),

@@ -17,15 +17,13 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Circle
 import numpy as np
 sys.path[:0] = [os.path.dirname(sys.argv[0]), os.path.join(os.path.dirname(sys.argv[0]), '..')]
 from grains import Layer, cutScene, grainArrays
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Collapse of a cohesive cut, by DEM and by MPM.',
         grains=(24, 'mean diameters over the height'),
@@ -202,7 +200,7 @@ for name, listed in ('dem-spheres.pvd', grainEntries), ('both.pvd', entries + gr
 	with open(os.path.join(options.out, name), 'w') as file:
 		file.write('<VTKFile type="Collection" version="0.1">\n<Collection>\n' + ''.join(listed) + '</Collection>\n</VTKFile>\n')
 
-colours = {'DEM': 'tab:orange', 'MPM': 'tab:blue'}
+colours = {'DEM': 'C1', 'MPM': 'C0'}
 figure, axes = plt.subplots(3, 2, figsize=(12, 11), layout='constrained')
 (curvesOfTests, curves), (grainView, pointView), (surfaces, stresses) = axes
 for (pressure, test), fitted, colour in zip(biaxial.items(), fit['curves'][1:], ('C0', 'C1', 'C2')):
@@ -210,7 +208,7 @@ for (pressure, test), fitted, colour in zip(biaxial.items(), fit['curves'][1:], 
 	curvesOfTests.plot(along, shearStress(test, test['stress_yy']) / 1e3, color=colour, label=f'lateral pressure {pressure / 1e3:g} kPa: mean {strength[pressure] / 1e3:.0f} kPa')
 	curvesOfTests.plot(along, shearStress(test, fitted['stress_yy']) / 1e3, '--', color='k', label=f'continuum, $c_u$ = {cu / 1e3:.1f} kPa' if colour == 'C2' else None)
 curvesOfTests.set(xlabel='axial strain [%]', ylabel='shear stress [kPa]', title='Calibration: biaxial tests on grains', ylim=(0, None))
-curvesOfTests.legend(frameon=False, fontsize=8, loc='lower right')
+curvesOfTests.legend(frameon=False, loc='lower right')
 for name, history in ('DEM', dem), ('MPM', continuum):
 	N, front, crest = history.columns
 	curves.plot(front, N, color=colours[name], label=f'{name}, front forwards')
@@ -224,7 +222,7 @@ curves.set(xlabel='movement [m]', ylabel='stability number $\\gamma H / c_u$', t
 surfaces.set(xlabel='x [m]', ylabel='y [m]', title='Surface', ylim=(0, 1.1 * H))
 stresses.set(xlabel='vertical pressure [kPa], mean over 0 < x < H', ylabel='initial height y [m]', title='Stress', xlim=(0, None))
 for panel in curves, surfaces, stresses:
-	panel.legend(frameon=False, fontsize=8)
+	panel.legend(frameon=False)
 limit = 0.4 * H
 state = dem.states[final]
 moved = np.linalg.norm(state['pos'] - state['pos0'], axis=1)

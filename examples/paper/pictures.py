@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of the results: plain Python, no YADE needed. Each function takes rows of a table, numbers already converted."""
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
+import os
+import sys
+
 from matplotlib.collections import PolyCollection
 import numpy as np
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
+from style import plt
+
 names = {'mpm': 'MPM', 'gimp': 'GIMPM', 'none': 'GIMPM', 'ghost': 'ghost-stabilised GIMPM', 'mesh-independent': 'ghost, $h^1$', 'paper': "ghost, paper's $h^3$"}
-colours = {'mpm': '0.55', 'gimp': 'tab:red', 'none': 'tab:red', 'ghost': 'tab:blue', 'mesh-independent': 'tab:blue', 'paper': 'tab:green'}
+colours = {'mpm': '0.55', 'gimp': 'C3', 'none': 'C3', 'ghost': 'C0', 'mesh-independent': 'C0', 'paper': 'C2'}
 stressScale = -13, 13 # [kPa]: yield in pure shear is at a Kirchhoff stress of 15 / sqrt(2) = 10.6 kPa; Cauchy stress is that over det F
 
 

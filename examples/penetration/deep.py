@@ -14,13 +14,11 @@ import os
 import sys
 import time
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 from yade import mpm, utils
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Rigid bodies deep in clay.',
         scene=('cone', "'cone', 'pile' or 'tbar'"),

@@ -8,15 +8,13 @@ Run it with `scripts/run examples/penetration/sand.py [options]`; runs that are 
 import os
 import sys
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 folder = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [os.path.join(folder, '..'), os.path.join(folder, '..', '..', 'scripts', 'lib')]
 from contacts.course import smoothness
 from contacts.penetration import pushedIntoSand, quarterPushedIntoSand
 from options import readOptions
+from style import plt
 
 options = readOptions('A cone in sand.',
         cells=('2 3', 'over the radius, around the axis, between blanks'),

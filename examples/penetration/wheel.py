@@ -10,13 +10,11 @@ import os
 import sys
 import time
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 from yade import mpm, utils
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A driven wheel on clay.',
         slip=(0.4, '1 - speed of the middle over that of the rim'),

@@ -13,12 +13,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Rain and suction.',
         scene=('all', "'all', or one of 'front', 'rain' and 'slope'"),

@@ -12,15 +12,13 @@ import os
 import sys
 import time
 
-import matplotlib
 import numpy as np
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from columns import L, runSand
 from deposits import front, profile
 from options import readOptions
+from style import plt
 
 options = readOptions('Deposits of sand on several grids and in several steps.',
         aspects=('0.5 1 2 3', 'height over width of the columns, between blanks'),

@@ -18,14 +18,12 @@ import time
 
 from yade import mpm, utils
 import numpy as np
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from columns import L, density, frames, g, outline, run, runSand
 from deposits import profile
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Run-out of columns of sand.',
         aspects=('0.5 1 1.5 2 3', 'height over width of the columns, between blanks'),
@@ -127,13 +125,13 @@ def drawResults(found, energies):
 		for aspect, _, _, x, depth in rows:
 			shapes.plot(x / L, depth / L, '-' if kind == 'sand' else ':', color=plt.cm.viridis(np.log2(aspect / 0.5) / 4), label=f'{kind}, a = {aspect:.2g}')
 	for kind, h in energies.items():
-		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'), (7, 'blows of held nodes', 'tab:orange'), (8, 'new grids', 'tab:purple'):
+		for column, name, colour in (2, 'kinetic', 'C0'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'C3'), (6, 'ghost', 'C2'), (7, 'blows of held nodes', 'C1'), (8, 'new grids', 'C4'):
 			if column < h.shape[1]: history.plot(h[:, 0], h[:, column], '-' if kind == 'sand' else ':', color=colour, label=f'{kind}: {name}')
 	far.set(xlabel='a = H / L', ylabel='run-out (x - L) / L')
 	high.set(xlabel='a = H / L', ylabel='height at rest / L')
 	shapes.set(xlabel='x / L', ylabel='depth at rest / L')
 	history.set(xlabel='t / sqrt(H / g)', ylabel='energy / first potential energy', title=f'a = {options.film:g}')
-	for ax in far, high, shapes, history: ax.legend(frameon=False, fontsize=7)
+	for ax in far, high, shapes, history: ax.legend(frameon=False)
 	figure.savefig(os.path.join(options.out, 'runout.png'), dpi=110)
 
 

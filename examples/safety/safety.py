@@ -17,12 +17,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Factors of safety.',
         scene=('slope', "'slope', 'cut', 'gradient', 'long' or 'infinite'"),
@@ -99,11 +97,11 @@ for carries, colour in (True, 'C0'), (False, 'C3'):
 	trials = sorted((t['F'], 1000 * t['displacement']) for t in found['trials'] if t['carries'] == carries)
 	curve.plot(*np.transpose(trials), 'o', color=colour, label='carries' if carries else 'fails ')
 if published: curve.axvspan(*published, color='0.85', label='published') if published[0] < published[1] else curve.axvline(published[0], color='0.6', label='infinite slope')
-curve.set(xlabel='F', ylabel='largest displacement [mm]', yscale='log')
+curve.set(xlabel='trial factor F [-]', ylabel='largest displacement [mm]', yscale='log')
 curve.legend(frameon=False)
 slip = found['plasticStrain']
 mpm.plot(slip / slip.max(), ax=shape, range=(0, 0.6), colormap='YlOrRd')
-shape.child_axes[0].set_ylabel('plastic strain / largest')
+shape.child_axes[0].set_ylabel('plastic strain / largest [-]')
 shape.set_title(f'Plastic strain at failure; F = {found["lower"]:.3f} to {found["upper"]:.3f}, h = {found["cellSize"]:g} m', fontsize='medium')
 figure.savefig(os.path.join(options.out, 'safety.png'), dpi=130)
 print(f'written: {options.out}/safety.png')

@@ -4,12 +4,10 @@
 import os
 import sys
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 options = readOptions('Sheet pile wall.', cellSize=(0.5, '[m]; its half is dug out at a time'), depth=(3.25, 'that is dug out in the end [m]'), seen=(3., 'depth of the picture [m]'))
 h, L, phi, gamma = options.cellSize, 6, radians(30), 18e3
 O.materials.append(MpmMohrCoulombMat(young=4e7, poisson=0.3, density=gamma / 10, cohesion=100, frictionAngle=phi, dilationAngle=phi, label='sand'))
@@ -33,8 +31,8 @@ for level in np.arange(1.5, options.depth + 1e-9, h / 2):
 	print(f'dug out {level:.3f} m: head moves {1e3 * wall.vertices[0][0]:.1f} mm, moment {max(wall.moments) / 1e3:.1f} kN m, by Blum {byHand / 1e3:.1f} kN m')
 	if abs(level - options.seen) < 1e-9:
 		compared(f'largest moment, dug out {level:g} m, cells of {h:g} m', max(wall.moments) / 1e3, byHand / 1e3, 'Blum 1931', 'kN m')
-		figure, axes = plt.subplots(1, 3, figsize=(12, 4.5), layout='constrained')
-		for ax, quantity in zip(axes, ('axialForce', 'shearForce', 'moment')):
-			mpm.diagram(wall, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(-4, 4), ylim=(-8, 0.5), title=quantity)
+		figure, axes = plt.subplots(1, 3, figsize=(14, 5.2), layout='constrained')
+		for ax, (quantity, title) in zip(axes, dict(axialForce='normal force', shearForce='shear force', moment='moment').items()):
+			mpm.diagram(wall, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-4, 4), ylim=(-8, 0.5), title=title)
 		figure.savefig(f'{options.out}/sheet_pile.png')
 print(f'by Blum it fails at {blum:.3f} m')

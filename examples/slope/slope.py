@@ -21,12 +21,10 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Slope failure with a weak layer (Coombs 2023, section 4.2).',
         cellSize=(1., 'h [m]; the load comes in 40/h steps'),

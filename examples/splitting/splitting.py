@@ -16,14 +16,12 @@ import sys
 from functools import partial
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
 from deposits import front
 from options import readOptions
+from style import plt
 from results import Results
 from slopes import weakLayerSlope
 
@@ -153,7 +151,7 @@ def slope(points, maxSplits):
 
 def draw():
 	"""The block at 0.4 of its height without splitting and with it, and the force until each run ends."""
-	figure, (forces, *blocks) = plt.subplots(1, 3, figsize=(13, 3.6), width_ratios=[1.1, 1, 1], layout='constrained')
+	figure, (forces, *blocks) = plt.subplots(1, 3, figsize=(13, 4), width_ratios=[1.1, 1, 1], layout='constrained')
 	for points, maxSplits, style in (2, 0, 'o-'), (2, 2, 's-'), (4, 0, 'k--'):
 		text = f'{points} x {points} points, maxSplits={maxSplits}'
 		O.reset()
@@ -162,11 +160,11 @@ def draw():
 		O.reset()
 		press(points, maxSplits, 70)
 		at, ax = mpm.arrays(), blocks.pop(0)
-		for x, half in zip(at['pos'], at['halfSize']): ax.add_patch(plt.Rectangle((x - half)[:2], *(2 * half[:2]), facecolor='tab:blue', alpha=0.45, edgecolor='k', linewidth=0.6))
-		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.6), xticks=np.arange(0, 2.6, 0.25), yticks=np.arange(0, 0.6, 0.25), title=text + ', at 0.4 of the height')
+		for x, half in zip(at['pos'], at['halfSize']): ax.add_patch(plt.Rectangle((x - half)[:2], *(2 * half[:2]), facecolor='C0', alpha=0.45, edgecolor='k', linewidth=0.6))
+		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.6), xticks=np.arange(0, 2.6, 0.5), yticks=(0, 0.5), xlabel='x [m]', ylabel='y [m]', title=text.replace(', ', '\n') + ', at 0.4 of the height')
 		ax.grid(linewidth=0.5)
-	forces.set(xlabel='height over that at first', ylabel='force over the closed form', xlim=(1, 0.15), ylim=(0, 1.2))
-	forces.legend(frameon=False, fontsize=8)
+	forces.set(xlabel='height over the first height [-]', ylabel='force over the closed form [-]', xlim=(1, 0.15), ylim=(0, 1.2))
+	forces.legend(frameon=False)
 	figure.savefig(os.path.join(options.out, 'splitting.png'), dpi=110)
 
 

@@ -77,9 +77,7 @@ for halvings, reach in variants:
 	print(f'halvings {halvings}, to {reach:g} B: {solver.dofs} unknowns, {len(O.bodies)} points, N_c = {load:.4f} {of} {beside}; {solves} solves, {seconds:.1f} s of the processor')
 
 if options.picture:
-	import matplotlib
-	matplotlib.use('Agg')
-	import matplotlib.pyplot as plt
+	from style import plt
 	figure, axes = plt.subplots(figsize=(7.5, 5.4), layout='constrained')
 	mpm.plot('meanStress', ax=axes, grid=True, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
 	figure.savefig(os.path.join(options.out, 'footing.png'), dpi=130)

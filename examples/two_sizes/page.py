@@ -5,15 +5,13 @@ import csv
 import os
 import sys
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path.append(os.path.join(here, '..', '..', 'scripts', 'lib'))
+sys.path += [os.path.join(here, '..'), os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pages
 import studies
+from style import plt
 
 titles = dict(footing='footing', tightFooting='footing, small block', cut='cut', tightCut='cut, small block', bar='bar, where it is', way='bar, along its way', tightBar='bar, small block')
 
@@ -119,20 +117,21 @@ def check(runs):
 
 
 def picture(runs, found, path):
-	figure, plots = plt.subplots(1, 3, figsize=(12.5, 4), layout='constrained')
+	figure, plots = plt.subplots(1, 3, figsize=(14.5, 5.5), layout='constrained')
 	for axes, scene in zip(plots, ('footing', 'cut', 'bar')):
 		for name, line in (scene, 'k.-'), ('tight' + scene.title(), 'k.--'):
 			equal = ladder(runs, name)
 			label = 'equal cells' + (', small block' if name != scene else '')
 			if equal: axes.loglog([run['unknowns'] for run in equal], [100 * abs(run['error']) for run in equal], line, label=label, linewidth=0.8)
-		for levels, colour in (1, 'tab:blue'), (2, 'tab:red'):
+		for levels, colour in (1, 'C0'), (2, 'C3'):
 			halvings = 'halved once' if levels == 1 else 'halved twice'
 			for name, mark, label in (scene, 'o', halvings), ('tight' + scene.title(), '^', halvings + ', small block'), ('way', 'x', halvings + ', along its way'):
 				if name == 'way' and scene != 'bar': continue
 				some = [run for run in found if run['scene'] == name and run['levels'] == levels]
 				if some: axes.loglog([run['unknowns'] for run in some], [100 * run['off'] for run in some], mark, color=colour, markersize=3.5, label=label)
-		axes.set(xlabel='unknowns', ylabel='error of the limit load [%]', title=scene)
-		axes.legend(frameon=False, fontsize=7)
+		axes.set(xlabel='unknowns [-]', ylabel='error of the limit load [%]', title=scene)
+		axes.set_ylim(top=20 * axes.get_ylim()[1])  # room for the legend
+		axes.legend(frameon=False)
 	figure.savefig(path, dpi=110)
 	plt.close(figure)
 

@@ -18,11 +18,9 @@ import os
 import sys
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions("Cook's membrane.",
         cells=(24, 'cells over the clamped edge'),

@@ -18,12 +18,10 @@ import os
 import sys
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('A confined column askew on the grid.',
         load=('weight', "'weight' or 'lid'"),

@@ -15,13 +15,11 @@ import sys
 import time
 
 from yade import mpm
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 sys.path.insert(0, os.path.dirname(sys.argv[0]))
 from options import compared, readOptions
+from style import plt
 from potential_plane import discharge
 
 options = readOptions('Seepage through a dam.',

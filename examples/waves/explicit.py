@@ -16,12 +16,10 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path[:0] = [os.path.join(os.path.dirname(sys.argv[0]), '..', *folder) for folder in ((), ('..', 'scripts', 'lib'))]
 from options import compared, readOptions
+from style import plt
 from results import Results
 
 options = readOptions('Explicit and implicit steps.', scene=('trade', "'bar', 'impact', 'trade', 'conditions', 'inertia' or 'cost'"), short=(0, '1: fewer and smaller cases, for a quick look'))
@@ -139,8 +137,8 @@ def impact():
 				print(f'{scene.__name__}, {kind}, {courant:g}: {x:.1e}  {y:.1e}  {excess:+.1e}  {left:.4f}', flush=True)
 	figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True, layout='constrained')
 	for (scene, kind), rows in found.items(): axes[int(scene == 'bounce')].loglog(*np.array(rows).T, 'o-', label=kind)
-	for ax, title in zip(axes, ('two blocks', 'off a Box')): ax.set(xlabel='dt c / h', title=title)
-	axes[0].set_ylabel('energy above that of the beginning')
+	for ax, title in zip(axes, ('two blocks', 'off a Box')): ax.set(xlabel='time step dt c / h [-]', title=title)
+	axes[0].set_ylabel('energy above the first one [-]')
 	axes[0].legend(frameon=False)
 	return figure
 
@@ -179,7 +177,7 @@ def trade():
 			kept.add([dict(scheme=kind, courant=courant, seconds=f'{seconds:.4g}', error=f'{error:.4g}')])
 			print(f'{kind}, dt = {courant:g} h / c: {seconds:.2f} s, error {error:.4f}, {1e9 * seconds / points / np.ceil(cells / courant):.0f} ns a point and step', flush=True)
 		ax.loglog(*np.array(rows).T, 'o-', label=kind)
-	ax.set(xlabel='seconds', ylabel='error of the velocities', title=f'pulse in a plate of {points} points')
+	ax.set(xlabel='processor time [s]', ylabel='error of the velocities [-]', title=f'pulse in a plate of {points} points')
 	ax.legend(frameon=False)
 	return figure
 
@@ -212,7 +210,7 @@ def conditions():
 			error = np.abs(found - exact).max() / np.abs(exact).max()
 			print(f'{condition}, {kind}: {steps} steps, {100 * error:.2f} % of the largest displacement off; energy not accounted for {imbalance:+.1e} of the work', flush=True)
 			ax.bar(column + 0.3 * side, 100 * error, 0.3, color=f'C{side}', label=kind if column == 0 else None)
-	ax.set(xticks=range(5), xticklabels=('plain', 'F-bar', 'axisymmetric', 'load', 'wall'), ylabel='off [% of the largest displacement]')
+	ax.set(xticks=range(5), xticklabels=('plain', 'F-bar', 'axisymmetric', 'load', 'wall'), ylabel='difference / largest displacement [%]')
 	ax.legend(frameon=False)
 	return figure
 
@@ -239,8 +237,8 @@ def cost():
 		for number, (name, seconds) in enumerate(parts.items()):
 			ax.barh(row, seconds * unit, left=left, color=f'C{number}', label=name if row == 0 else None)
 			left += seconds * unit
-	ax.set(xlabel='ns a point and step', yticks=range(3), yticklabels=list(kinds)[:3])
-	ax.legend(frameon=False, fontsize=7)
+	ax.set(xlabel='time of a step, by point [ns]', yticks=range(3), yticklabels=list(kinds)[:3])
+	ax.legend(frameon=False)
 	return figure
 
 
@@ -272,7 +270,7 @@ def inertia():
 		print(f'{dim}D, {points} points: {1e3 * still:.0f} ms without inertia, {1e3 * moving:.0f} ms with it, {100 * (moving / still - 1):+.0f} %', flush=True)
 		ax.barh([row], [1e6 * moving / points], color='C1', label='with inertia' if row == 0 else None)
 		ax.barh([row], [1e6 * still / points], color='C0', label='without' if row == 0 else None)
-	ax.set(xlabel='us a point and step, one solve', yticks=range(len(cases)), yticklabels=[f'{dim}D, {cells} cells' for dim, cells in cases])
+	ax.set(xlabel='time of a step with one solve, by point [µs]', yticks=range(len(cases)), yticklabels=[f'{dim}D, {cells} cells' for dim, cells in cases])
 	ax.legend(frameon=False)
 	return figure
 

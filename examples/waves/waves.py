@@ -18,12 +18,10 @@ import sys
 import time
 
 from yade import mpm, utils
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
+from style import plt
 
 options = readOptions('Waves, mass and sliding against closed forms.',
         scene=('bar', "'bar', 'pulse', 'steps', 'mass', 'block' or 'sphere', or several between blanks"),
@@ -102,10 +100,10 @@ def bar():
 	figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout='constrained')
 	left.loglog(inTime[:, 0], inTime[:, 1], 'o', label='20 cells')
 	left.loglog(inTime[:, 0], inTime[:, 2], 'k-', linewidth=0.8, label='closed form of the trapezoidal rule')
-	left.set(xlabel='dt c / h', ylabel='error of the first period')
-	right.loglog(*inSpace.T, 'o', label='dt = .1 h / c, without its error')
+	left.set(xlabel='time step dt c / h [-]', ylabel='error of the first period [-]')
+	right.loglog(*inSpace.T, 'o', label='dt = 0.1 h / c, without its error')
 	right.loglog(inSpace[:, 0], inSpace[-1, 1] * (inSpace[-1, 0] / inSpace[:, 0])**2, 'k-', linewidth=0.8, label='second order')
-	right.set(xlabel='cells', ylabel='error of the first period')
+	right.set(xlabel='cells over the length [-]', ylabel='error of the first period [-]')
 	for ax in left, right: ax.legend(frameon=False)
 	return figure
 
@@ -144,8 +142,8 @@ def pulse():
 					print(f'half width {width}, massFactor {massFactor:g}, cut {cut:g}: {failure}')
 			print(f'half width {width} h, massFactor {massFactor:g}: {np.nanmin(left):.3f} / {np.nanmedian(left):.3f}', flush=True)
 			ax.semilogx(cuts, left, 'o-', markersize=4, label=f'massFactor {massFactor:g}')
-		ax.set(xlabel='part of the last cell that the bar fills', title=f'half width {width} cells')
-	axes[0].set_ylabel('energy left after reflection')
+		ax.set(xlabel='filled part of the last cell [-]', title=f'half width {width} cells')
+	axes[0].set_ylabel('energy left after reflection [-]')
 	axes[0].legend(frameon=False)
 	return figure
 
@@ -176,7 +174,7 @@ def steps():
 			rows.append((solves, np.abs(found - exact).max()))
 			print(f'{longest:g} s, {tolerance:g}: {rows[-1][1]:.2e} m, {solves} solves, {made} steps', flush=True)
 		ax.loglog(*np.transpose(rows), 'o-', label='timeTolerance, O.dt = 64 ms' if tolerance else 'steps of one length')
-	ax.set(xlabel='solves', ylabel='largest error of positions [m]')
+	ax.set(xlabel='solves [-]', ylabel='largest error of positions [m]')
 	ax.legend(frameon=False)
 	return figure
 
@@ -221,9 +219,9 @@ def mass():
 		for column, factor in zip(np.transpose(found), factors):
 			ax.semilogy(moved, column, label=f'massFactor {factor:g}')
 			print(f'{dim}D, massFactor {factor:5g}: {column.min():.3g}  {column[0]:.3g}  {column.max():.3g}')
-		ax.set(xlabel='way of the block / h', title=f'{dim}D', ylim=(5, 1e17))
+		ax.set(xlabel='way of the block / h [-]', title=f'{dim}D', ylim=(5, 1e17))
 	compareGhost()
-	axes[0].set_ylabel('condition number of mass')
+	axes[0].set_ylabel('condition number of the mass matrix [-]')
 	axes[0].legend(frameon=False)
 	return figure
 

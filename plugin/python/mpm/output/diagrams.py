@@ -33,6 +33,7 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	ends = np.c_[values, values] if len(values) == len(along) else np.c_[values[:-1], values[1:]]
 	aside = np.c_[-along[:, 1], along[:, 0]] / length[:, None]
 	offsets = ends * (size / (np.abs(values).max() or 1))
+	import matplotlib.patheffects
 	import matplotlib.pyplot as plt
 	axes = axes or plt.gca()
 	for (first, last), (a, b), normal in zip(zip(x, x[1:]), offsets, aside):
@@ -41,5 +42,5 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	largest = np.abs(values).argmax()
 	piece = min(largest, len(aside) - 1)
 	text = f'{values[largest] / 1e3:.4g} kN{" m" if "oment" in quantity else ""}'
-	axes.annotate(text, x[largest] + offsets[piece, 0] * aside[piece], color=_colours[quantity], zorder=6)
+	axes.annotate(text, x[largest] + offsets[piece, 0] * aside[piece], color=_colours[quantity], zorder=6, clip_on=True, path_effects=[matplotlib.patheffects.withStroke(linewidth=3, foreground='white')])
 	return axes
