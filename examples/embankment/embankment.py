@@ -104,9 +104,9 @@ def embankment():
 	compared('load on the base of the embankment over the weight', solver.reactions[2][1] / (weight - squeezed), 1, 'sum by hand')
 	n, settlement, outwards = np.array(history).T
 	last = axes.flat[7]
-	last.plot(thickness * n, 1e3 * settlement, 'o-', label='settlement in the middle')
+	last.plot(thickness * n, 1e3 * settlement, 'o-', label='settlement at the centre')
 	last.plot(thickness * n, 1e3 * outwards, 's-', label='toe, outwards')
-	last.set(xlabel='height [m]', ylabel='moved by [mm]', title='middle and toe')
+	last.set(xlabel='height [m]', ylabel='displacement [mm]', title='centre and toe')
 	last.legend(loc='upper left')
 	figure.savefig(os.path.join(options.out, 'embankment.png'), dpi=100)
 

@@ -93,6 +93,6 @@ curve.set(xlabel='settlement / B [%]', ylabel='load / (area $c_u$) [-]', xlim=(0
 curve.legend(frameon=False, loc='lower right')
 mpm.plot('displacement', ax=shape, plane=('z', h / (2 * options.pointsPerCell)))
 shape.plot([0, B / 2], [0.03 - options.settlement * B] * 2, 'k-', linewidth=5, solid_capstyle='butt', label='footing')
-shape.set(xlim=(-0.05, width + 0.05), ylim=(-depth - 0.05, 0.25), title='square footing, section near its middle')
+shape.set(xlim=(-0.05, width + 0.05), ylim=(-depth - 0.05, 0.25), title='square footing, section near its centre')
 figure.savefig(os.path.join(options.out, 'footing3d.png'), dpi=130)
 print(f'written: {options.out}/footing3d.png, footing3d.csv, and for ParaView {options.out}/square-points.pvd')

@@ -77,7 +77,7 @@ if way == 'slides': print(f'thrust as it slides {path[-1][2] / (thrust(slides) *
 else: print(f'thrust as it tips {path[-1][2] / (thrust(q) * cos(delta)):.3f} of that by Coulomb')
 print(f'it {way}: {what} by hand {ratio:.3f}')
 compared(f'{way}, cells of {options.cellSize:g} m: {what}', ratio, 1, 'Coulomb')
-figure, (picture, diagram) = plt.subplots(1, 2, figsize=(11, 4.6), width_ratios=[1.5, 1], layout='constrained')
+figure, (picture, diagram) = plt.subplots(1, 2, figsize=(12.5, 4.6), width_ratios=[1.5, 1], layout='constrained')
 mpm.plot('plasticStrain', ax=picture)
 loads, moves, thrusts = np.array(path).T
 diagram.plot(1e3 * moves, thrusts / 1e3, 'o-', ms=3, label='wall')

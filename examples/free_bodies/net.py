@@ -73,6 +73,8 @@ picture.add_collection3d(Poly3DCollection([[O.bodies[nodes[c]].state.pos for c i
 picture.scatter(*mpm.arrays()['pos'].T, s=40, c='peru', label='soil')
 picture.scatter(*np.array([O.bodies[i].state.pos for i in grains]).T, s=120, c='grey', label='grains')
 picture.set(xlim=(0, 0.8), ylim=(0, 0.8), zlim=(-0.2, 0.2), xlabel='x [m]', ylabel='y [m]', zlabel='z [m]')
+picture.tick_params(labelsize=8)
+picture.zaxis.labelpad = 10
 picture.view_init(35, -60)
 picture.legend()
 diagram.plot(times, held / weight, label='edges over weight of all')

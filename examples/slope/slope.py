@@ -97,6 +97,6 @@ for axes in stress, slip:
 		edge = edge[np.argsort(points['pos0'][edge, 0])]
 		along = points['pos'] + side * points['defGrad'][:, :, 1] * points['halfSize0'][:, 1:2]  # middle of the upper or lower side of each domain
 		axes.plot(*along[edge, :2].T, 'k', linewidth=1.2, label='weak layer' if side == 1 else None)
-	axes.legend(frameon=False)
+	axes.legend(frameon=False, loc='upper right')
 figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
 print(f'written: {options.out}/slope.png, for the browser {options.out}/slope.html, and for ParaView {options.out}/slope-points.pvd')

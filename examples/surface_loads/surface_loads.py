@@ -91,7 +91,8 @@ compare('settlement of the middle less that at x = 3 b, over q b / E', settlemen
 figure, (picture, curve) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout='constrained')
 mpm.plot('stress_yy', ax=picture, range=(-q, 0))
 picture.set(xlim=(0, 4 * b), ylim=(-4 * b, 0.6 * b), title='vertical stress')
-curve.plot(found[column] / q, z[column], '.', label='under the middle')
+picture.get_legend().remove()  # arrows show the load
+curve.plot(found[column] / q, z[column], '.', label='under the centre')
 edge = np.flatnonzero(np.abs(x - 2 * b + h / (2 * options.pointsPerCell)) < 1e-6 * h)
 curve.plot(found[edge] / q, z[edge], '.', label='at x = 2 b')
 depths = np.linspace(0.01, 8, 400)
