@@ -157,7 +157,7 @@ def draw():
 	for name, values in curves.items(): curve.plot(values, s, label=name)
 	curve.axvline(exact, color='k', linewidth=0.8, label=source)
 	curve.set(xlabel='resistance over $c_u$' + (' D' if isBar else r' $\pi R^2$'), ylabel='way / R', ylim=(1.02 * s.max(), 0))
-	curve.legend(frameon=False)
+	curve.legend(frameon=False, loc='lower left', bbox_to_anchor=(0, 1))
 	figure.savefig(os.path.join(options.out, options.scene + '.png'), dpi=110)
 	print(f'written: {options.out}/{options.scene}.png, and for ParaView {options.out}/{options.scene}-points.pvd')
 
