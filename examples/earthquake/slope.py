@@ -1,13 +1,10 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A slope of 30 m with a weathered skin, between free ground of two levels and over rock that lets waves go, is shaken by a record: slope.py [its seconds [size of the cells]]."""
-import os
 import sys
 import time
 import numpy as np
 from yade import mpm
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
-from style import plt
 seconds, cellSize = [*map(float, sys.argv[1:]), *(20, 2.5)[len(sys.argv) - 1:]]
 t = np.arange(0, seconds, 0.01)
 noise = np.fft.rfft(np.random.default_rng(4).standard_normal(t.size) * t / seconds * np.exp(-5 * t / seconds), 2 * t.size)
@@ -39,12 +36,5 @@ drift = max(np.linalg.norm(moved(edge) - np.reshape(edge.displacements, (len(edg
 print(f'slope: crest {np.linalg.norm(crest):.3f} m, toe {np.linalg.norm(toe):.3f} m, base {np.linalg.norm(base):.4f} m; edges from free ground {drift:.4f} m ({100 * drift / np.linalg.norm(crest):.2f} %)')
 print(f'slope: largest acceleration {peaks["acceleration"].max():.2f} m/s2, of the base {h.largest()[2]:.2f} m/s2; {end:.1f} s in {time.time() - begin:.0f} s')
 mpm.plot('displacement', fileName='out/earthquake/slope.png')
-figure, axes = plt.subplots(figsize=(10, 5), layout='constrained')
-mpm.plot(peaks['acceleration'], ax=axes)
-axes.set_title('Largest acceleration')
-axes.child_axes[0].set_ylabel('acceleration [m/s2]')
-figure.savefig('out/earthquake/peaks.png', dpi=110)
-figure, axes = plt.subplots(figsize=(9, 4), layout='constrained')
-h.plot('displacement_x', ax=axes)
-axes.legend(['crest', 'toe', 'base'])
-figure.savefig('out/earthquake/slope-histories.png', dpi=110)
+mpm.plot(peaks['acceleration']).set_title('Largest acceleration [m/s2]').figure.savefig('out/earthquake/peaks.png', bbox_inches='tight')
+h.plot('displacement_x').legend(['crest', 'toe', 'base']).figure.savefig('out/earthquake/slope-histories.png', dpi=130, bbox_inches='tight')

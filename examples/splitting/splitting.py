@@ -63,7 +63,7 @@ def hang(points, maxSplits):
 	return dict(result, measured=np.average(abs(found['stress'][:, 1, 1] - exact), weights=found['volume']) / weight, exact=0.)
 
 
-def press(points, maxSplits, steps=100):
+def press(points, maxSplits):
 	"""Force on a plate at 0.4 of the height, over that of the closed form, E / (1 - nu^2) ln f / f; how far it comes is in *completed*."""
 	E, nu, flat, look = 1e6, 0.45, 0.15, 0.4
 	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='rubber'))
@@ -83,7 +83,7 @@ def press(points, maxSplits, steps=100):
 		f = box.state.pos[1] - 0.5
 		curve.append((f, contact.forces[0][1] / exact(f)))
 
-	result = advance(steps, O.engines[0], record)
+	result = advance(100, O.engines[0], record)
 	height, force = np.transpose(curve)
 	return dict(result, measured=np.interp(-look, -height, force), exact=1., curve=curve)
 
@@ -150,18 +150,17 @@ def slope(points, maxSplits):
 
 
 def draw():
-	"""The block at 0.4 of its height without splitting and with it, and the force until each run ends."""
+	"""The block with one point a cell where its run ends, without splitting and with it, and the forces."""
 	figure, (forces, *blocks) = plt.subplots(1, 3, figsize=(13, 4), width_ratios=[1.1, 1, 1], layout='constrained')
-	for points, maxSplits, style in (2, 0, 'o-'), (2, 2, 's-'), (4, 0, 'k--'):
+	for points, maxSplits, style in (1, 0, 'o-'), (1, 6, 's-'), (4, 0, 'k--'):
 		text = f'{points} x {points} points, maxSplits={maxSplits}'
 		O.reset()
-		forces.plot(*np.transpose(press(points, maxSplits)['curve']), style, markersize=3, label=text)
-		if points > 2: continue
-		O.reset()
-		press(points, maxSplits, 70)
+		curve = press(points, maxSplits)['curve']
+		forces.plot(*np.transpose(curve), style, markersize=3, label=text)
+		if points > 1: continue
 		at, ax = mpm.arrays(), blocks.pop(0)
 		for x, half in zip(at['pos'], at['halfSize']): ax.add_patch(plt.Rectangle((x - half)[:2], *(2 * half[:2]), facecolor='C0', alpha=0.45, edgecolor='k', linewidth=0.6))
-		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.6), xticks=np.arange(0, 2.6, 0.5), yticks=(0, 0.5), xlabel='x [m]', ylabel='y [m]', title=text.replace(', ', '\n') + ', at 0.4 of the height')
+		ax.set(aspect='equal', xlim=(0, 2.5), ylim=(0, 0.8), xticks=np.arange(0, 2.6, 0.5), yticks=(0, 0.5), xlabel='x [m]', ylabel='y [m]', title=text.replace(', ', '\n') + f', at {curve[-1][0]:.2f} of the height')
 		ax.grid(linewidth=0.5)
 	forces.set(xlabel='height over the first height [-]', ylabel='force over the closed form [-]', xlim=(1, 0.15), ylim=(0, 1.2))
 	forces.legend(frameon=False)
