@@ -41,10 +41,6 @@ def isReadable(text):
 	return len(lengths) < 2 or statistics.median(lengths) <= median and lengths[int(0.9 * (len(lengths) - 1))] <= most
 
 
-def test_pages_that_are_not_there_yet_are_there():
-	assert notYet <= set(manual())
-
-
 def test_sentences_are_counted():
 	text = '# A heading\n\nOne two `code with words` four. Five $a + b$ [link text](x.md).\nIt goes on\nhere\n\n    code in a block\n\n- an item\n- another one: with words\n\n| a | table |\n\n```python\nprint(1)\n```\n'
 	assert sentences(text) == [4, 4, 4, 2, 4]
