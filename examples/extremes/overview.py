@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the page of examples/extremes that fits on a screen, its figure, and the page of the study, from the kept table: `examples/extremes/overview.py`."""
+"""Writes the page of examples/extremes that fits on a screen and its figure, from the kept table: `examples/extremes/overview.py`."""
 import math
 import os
 import textwrap
@@ -143,4 +143,3 @@ def write(folder):
 
 if __name__ == '__main__':
 	write(here)
-	page.writeStudy(here)

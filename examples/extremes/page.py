@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Page and maps of the stability atlas, from the table in its folder results/."""
+"""Tables and maps of the stability atlas, from the table in its folder results/."""
 import csv
 import math
 import os
@@ -8,11 +8,8 @@ import sys
 import pictures
 from axes import axes, ghosts, groups
 
-here = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
-import pages
-import studies
-from pages import number, table
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'scripts', 'lib'))
+from pages import number
 
 names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, h³'}
 
@@ -97,16 +94,16 @@ def outside(rows, name):
 	return '; '.join(f'{kind} ({count})' for kind, count in sorted(kinds.items(), key=lambda item: -item[1])) or 'always runs'
 
 
-def section(rows, name):
-	columns = columnsOf(rows, name)
-	heads = ['value', *(f'{dim}D, {names[ghost]}' for dim, ghost in columns)]
-	lines = [[shown(value), *(outcome(rows.get((name, *column, value))) for column in columns)] for value in valuesOf(rows, name)]
-	return f"## `{name}`: {axes[name].title}\n\n{table(heads, lines)}\n"
+def cases(rows, present):
+	"""Outcome of all cases, a row for each value of a parameter."""
+	columns = [(dim, ghost) for dim in (2, 3) for ghost in ghosts]
+	lines = [[name, shown(value), *(outcome(rows.get((name, *column, value))) for column in columns)] for name in present for value in valuesOf(rows, name)]
+	return [['parameter', 'value', *(f'{dim}D, {names[ghost]}' for dim, ghost in columns)], *lines]
 
 
-def factorTable(rows):
+def factors(rows):
 	"""Condition numbers, counts and errors against the ghost factor."""
-	lines = []
+	lines = [['scene', 'factor', 'κ at the start', 'largest κ of all steps', 'factor times that', 'solves a step, mean (max)', 'error']]
 	for name, unit in ('columnFactor', 'column, {} cells'), ('slopeFactor', 'slope, h = 1/{} m'):
 		for (axis, _, _, value), row in rows.items():
 			if axis != name: continue
@@ -114,17 +111,15 @@ def factorTable(rows):
 			error = '' if math.isnan(row['error']) else f"{row['error']:.2e}"
 			excess = float(factor) * row['worstCondition']
 			lines.append([unit.format(cells), factor, f"{row['condition']:.0f}", f"{row['worstCondition']:.2e}", f'{excess:.0f}', f"{row['meanIterations']:.2f} ({row['maxIterations']:.0f})", error])
-	heads = ['scene', 'factor', 'κ at the start', 'largest κ of all steps', 'factor times that', 'solves a step, mean (max)', 'error']
-	return FACTORS + table(heads, lines) + '\n'
+	return lines
 
 
-def bandTable(rows):
+def bands(rows):
 	"""Load of a block that softens over its limit load before, by grid and kind of softening."""
 	kinds = dict(none='none', same='the same on all grids', scaled='scaled with the size of cells')
 	found = {tuple(key[3].split('/')): row for key, row in rows.items() if key[0] == 'softeningGrid'}
 	cells = sorted({int(n) for n, _ in found})
-	lines = [[kinds[kind], *(_bandLoad(found.get((str(n), kind))) for n in cells)] for kind in kinds]
-	return BAND + table(['softening', *(f'h = 1/{n} m' for n in cells)], lines) + '\n'
+	return [['softening', *(f'h = 1/{n} m' for n in cells)], *([kinds[kind], *(_bandLoad(found.get((str(n), kind))) for n in cells)] for kind in kinds)]
 
 
 def _bandLoad(row):
@@ -132,14 +127,14 @@ def _bandLoad(row):
 	return f"{row['measured']:.3f} ({row['meanIterations']:.1f}{cutsOf(row)})" if ran(row) else outcome(row)
 
 
-def sandTable(rows):
+def sandSlopes(rows):
 	"""Largest displacement and iterations of slopes of sand, with a little cohesion and without."""
 	found = {tuple(map(float, key[3].split('/'))): row for key, row in rows.items() if key[0] == 'sandSlope' and key[2] == 'mesh-independent'}
-	lines = []
+	lines = [['angle [degrees]', 'c = 0: moves by [mm]', 'solves a step, mean (max)', 'c = 1e-3: moves by [mm]', 'solves a step, mean (max)']]
 	for slope in sorted({slope for slope, _ in found}):
-		cells = [found.get((slope, cohesion)) for cohesion in (0., 1e-3)]
-		lines.append([f'{slope:g}', *(text for row in cells for text in (_motion(row), '' if row is None else f"{row['meanIterations']:.1f} ({row['maxIterations']:.0f})"))])
-	return SAND + table(['angle [degrees]', 'c = 0: moves by [mm]', 'solves a step, mean (max)', 'c = 1e-3: moves by [mm]', 'solves a step, mean (max)'], lines) + '\n'
+		pair = [found.get((slope, cohesion)) for cohesion in (0., 1e-3)]
+		lines.append([f'{slope:g}', *(text for row in pair for text in (_motion(row), '' if row is None else f"{row['meanIterations']:.1f} ({row['maxIterations']:.0f})"))])
+	return lines
 
 
 def _motion(row):
@@ -147,91 +142,52 @@ def _motion(row):
 	return f"{1e3 * row['measured']:.3f}" if ran(row) else outcome(row)
 
 
-def rangeTable(rows, present):
-	lines = []
+def ranges(rows, present):
+	lines = [['axis', 'parameter', 'dimensions', *(names[g] for g in ghosts), 'seen where it does not run (cases)']]
 	for name in present:
 		for dim in axes[name].dims:
 			if not any(key[:2] == (name, dim) for key in rows): continue
-			ranges = [safeRange(rows, name, (dim, ghost)) if (dim, ghost) in columnsOf(rows, name) else '' for ghost in ghosts]
-			lines.append([f'`{name}`', axes[name].title, f'{dim}D', *ranges, outside(rows, name)])
-	return table(['axis', 'parameter', '', *(names[g] for g in ghosts), 'seen where it does not run (cases)'], lines)
+			safe = [safeRange(rows, name, (dim, ghost)) if (dim, ghost) in columnsOf(rows, name) else '' for ghost in ghosts]
+			lines.append([name, axes[name].title, f'{dim}D', *safe, outside(rows, name)])
+	return lines
 
 
-def parts(rows, drawn, link=''):
-	"""Ranges, pictures, which are drawn into a folder, and all cases; link: the way to that folder."""
+def draw(rows, folder):
+	"""Draw maps in a folder; yields file and title of each."""
 	present = [name for name in axes if any(key[0] == name for key in rows)]
-	listed = [name for name in present if axes[name].listed]
-	found = []
-	if listed:
-		found += [RANGES, rangeTable(rows, listed), '']
-		for group, (title, members) in groups.items():
-			shown = [axis for axis in members if axis in listed]
-			if not shown: continue
-			pictures.outcomes(rows, title, shown, os.path.join(drawn, f'outcomes-{group}.png'))
-			found.append(f'![{title}: outcome of all cases]({link}outcomes-{group}.png)\n')
+	for group, (title, members) in groups.items():
+		members = [axis for axis in members if axis in present and axes[axis].listed]
+		if not members: continue
+		pictures.outcomes(rows, title, members, os.path.join(folder, f'outcomes-{group}.png'))
+		yield f'outcomes-{group}.png', f'Outcome of all cases: {title}'
 	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
 	if curves:
-		pictures.conditions(rows, curves, os.path.join(drawn, 'condition.png'))
-		found.append(f'![Condition numbers]({link}condition.png)\n')
+		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))
+		yield 'condition.png', 'Condition numbers'
 	if 'corner' in present:
-		pictures.cornerMaps(rows, os.path.join(drawn, 'corner.png'))
-		found.append(f'![Condition number against both overlaps of a corner]({link}corner.png)\n')
-	pictures.pivots(rows, os.path.join(drawn, 'pivots.png'))
-	found.append(f'![Smallest pivot and error of a solve]({link}pivots.png)\n')
-	if 'columnFactor' in present or 'slopeFactor' in present: found.append(factorTable(rows))
-	if 'softeningGrid' in present: found.append(bandTable(rows))
-	if 'sandSlope' in present: found.append(sandTable(rows))
-	if listed: found += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
-	return found
+		pictures.cornerMaps(rows, os.path.join(folder, 'corner.png'))
+		yield 'corner.png', 'Condition number against both overlaps of a corner'
+	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
+	yield 'pivots.png', 'Smallest pivot and error of a solve'
 
 
-def write(folder):
-	"""Page of runs of one's own."""
-	pages.write(folder, [INTRODUCTION, *parts(read(folder), folder)])
+def tables(rows, drawn):
+	"""File, title, rows and note of all tables and pictures; these are drawn into a folder."""
+	present = [name for name in axes if any(key[0] == name for key in rows)]
+	listed = [name for name in present if axes[name].listed]
+	if listed: yield 'ranges.csv', 'Safe ranges', ranges(rows, listed), RANGES
+	for file, title in draw(rows, drawn): yield file, title, None
+	if 'columnFactor' in present or 'slopeFactor' in present: yield 'factors.csv', 'Ghost factors', factors(rows), FACTORS
+	if 'softeningGrid' in present: yield 'softening.csv', 'Softening by grid', bands(rows), BAND
+	if 'sandSlope' in present: yield 'sand-slopes.csv', 'A slope of sand', sandSlopes(rows), SAND
+	if listed: yield 'outcomes.csv', 'All cases', cases(rows, listed), OUTCOMES
 
 
-def writeStudy(folder, home=studies.home):
-	"""Page of the kept runs."""
-	pages.write(home, [studies.conclusionOf('extremes'), '', *parts(read(folder), os.path.join(home, 'extremes'), 'extremes/')], 'extremes.md')
-
-
-INTRODUCTION = """# Stability at the extremes, in detail
-
-Each parameter below is driven to extremes until the method breaks down: without ghost stabilisation, with it (`factor=1e-2`) in its
-mesh-independent scaling h¹, and in the paper's h³, in 2D and 3D. `scripts/extremes` runs all of it and writes this page (see `--help`); the scenes
-are in `runs.py`, the values in `axes.py`, the numbers in `results/atlas.csv`.
-
-Unless an axis says otherwise, the scene is an elastic column of 2 x 6 [x 2] cells of 0.1 m, 2 points per cell and axis, free at its sides, that
-its own weight compresses in 5 load steps (b l0 = E / 2, Poisson's ratio 0). Its vertical stress is known from equilibrium whatever the material,
-so that the error, eq. 7 of Coombs (2023), is exact. Cells of 0.1 m tell the two scalings apart: the paper's is 100 times weaker there.
-"""
-
-RANGES = """## Safe ranges
-
-A value is safe if the analysis runs to its end without cutting a step and its error is at most 5 %, or three times the smallest of its axis. What
-the user sees outside is how the analysis ended there.
-"""
-
-FACTORS = """## Which ghost factor
-
-Columns shrink to half their height, the slope is that of Coombs (2023), both in 20 steps: the overlaps are whatever the motion brings.
-
-"""
-
-BAND = """## Softening depends on the grid
-
-A block of clay, 1 m wide and 2 m high, between smooth plates with a weak spot at its foot, shortened by .5 % (`scripts/extremes softeningGrid`): load at the
-end over the limit load without softening and weak spot, and mean iterations (linear solves) of a step.
-
-"""
-
-SAND = """## A slope of sand
-
-Sand of 35 degrees that does not dilate, slopes of 1 m, h = 0.1 m (`scripts/extremes sandSlope`): how far the point moves that moves most, with no cohesion
-and with one of 1e-3 of weight times height.
-
-"""
-
-OUTCOMES = """Each cell gives the error of the stress and the most iterations (linear solves) of a step, with the number of times a step was cut if it was; or, in
-bold, how the analysis ended, and after how many steps.
-"""
+RANGES = 'A value is safe if the analysis runs to its end without cutting a step and its error is at most 5 %, or three times the smallest of its axis. The last column is how the analysis ended outside.'
+FACTORS = 'Columns shrink to half their height, the slope is that of Coombs (2023), both in 20 steps: the overlaps are whatever the motion brings.'
+BAND = """A block of clay, 1 m wide and 2 m high, between smooth plates with a weak spot at its foot, shortened by 0.5 % (`scripts/extremes softeningGrid`): load at the end over the limit
+load without softening and weak spot, and mean iterations (linear solves) of a step.""".replace('\n', ' ')
+SAND = """Sand of 35 degrees that does not dilate, slopes of 1 m, h = 0.1 m (`scripts/extremes sandSlope`): displacement of the point that moves most, with no cohesion and with one of
+1e-3 of weight times height.""".replace('\n', ' ')
+OUTCOMES = """Error of the stress and the most iterations (linear solves) of a step, with the number of times a step was cut if it was; or, in bold, how the analysis ended, and after how
+many steps.""".replace('\n', ' ')

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs cases of the stability atlas in one YADE process: `yade -n -x runs.py cases.json` prints one line of JSON before and after each.
+"""Runs cases of the stability atlas, in YADE.
 
 A case is (axis, dim, ghost, value), see axes.py. Most are columns of 2 x 6 [x 2] cells under their own weight, whose vertical
 stress is known from equilibrium, whatever the material: -b (l0 - Y) at the initial height Y.
 """
-import json
 import os
 import re
 import sys
@@ -15,7 +14,7 @@ import numpy as np
 from yade import mpm, pack
 from yade.wrapper import MpmBoundary, MpmDrain, MpmElasticMat, MpmFlow, MpmGrid, MpmImplicitEngine, MpmNewton, MpmWater, Omega
 
-here = os.path.dirname(os.path.abspath(sys.argv[0]))
+here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
 from common import cellSize, fullNewton, stabilisation, young
@@ -321,12 +320,5 @@ def run(axis, dim, ghost, value):
 		if hasattr(tried, 'measured'): result['measured'] = tried.measured()
 	except (RuntimeError, ValueError) as error:
 		result['failure'] = kindOf(error)
-	return result | dict(seconds=time.process_time() - begin)
+	return {name: float(f'{x:.6g}') if isinstance(x, float) else x for name, x in result.items()} | dict(seconds=round(time.process_time() - begin, 3))
 
-
-if __name__ == '__main__':
-	with open(sys.argv[1]) as file:
-		cases = json.load(file)
-	for number, case in enumerate(cases):
-		print(json.dumps(dict(begins=number)), flush=True)
-		print(json.dumps(dict(ends=number, result=run(*case))), flush=True)

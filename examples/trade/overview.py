@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the page of examples/trade that fits on a screen, its figure, and the page of the study, from the kept tables: `examples/trade/overview.py`."""
+"""Writes the page of examples/trade that fits on a screen and its figure, from the kept tables: `examples/trade/overview.py`."""
 import os
 import sys
 
@@ -11,7 +11,6 @@ matplotlib.use('Agg')
 import matplotlib.patheffects
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullLocator
-import page
 import pages
 from panels import cost, panels, said
 from plans import plans
@@ -106,4 +105,3 @@ TABLE = '''**The cheapest setting for an error.** Processor time of the script, 
 
 if __name__ == '__main__':
 	write(here)
-	page.writeStudy(here, plans)

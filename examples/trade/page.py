@@ -1,22 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Page and pictures of what accuracy costs, from the tables in the folder results/."""
+"""Tables and pictures of what accuracy costs, from the runs in the folder results/."""
 import csv
 import math
 import os
-import sys
 
 import fronts
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
-here = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
-import pages
-import studies
-from pages import table
 
-targets = .1, .03, .01, .003
+targets = 0.1, 0.03, 0.01, 0.003
 marks = {'o': 'circle', 's': 'square', 'D': 'diamond', '^': 'triangle'}
 
 
@@ -44,9 +38,9 @@ def picture(name, plan, runs, front, uncertainty, path):
 	if uncertainty > 0: axes.axhspan(axes.get_ylim()[0], uncertainty, color='0.9', label='uncertainty of the reference')
 	axes.set(xlabel='processor time of the whole script [s], one thread', title=f'{name}: what accuracy costs')
 	axes.set_ylabel(errorLabel(plan), fontsize=9)
-	axes.grid(alpha=.3)
+	axes.grid(alpha=0.3)
 	axes.legend(fontsize=7, frameon=False)
-	if len(second) > 1: figure.text(.5, -.01, f"marks: {plan.words.get(names[1], names[1])}: {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=7)
+	if len(second) > 1: figure.text(0.5, -0.01, f"marks: {plan.words.get(names[1], names[1])}: {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=7)
 	figure.savefig(path, dpi=120, bbox_inches='tight')
 	plt.close(figure)
 
@@ -57,133 +51,108 @@ def errorLabel(plan):
 	return f"relative error of the {' and '.join(what)} [-]" + (',\nthe largest of them' if len(what) > 1 else '')
 
 
-def section(folder, name, plan, drawn, link):
-	try:
-		runs, uncertainty = fronts.read(folder, name, plan)
-	except fronts.NoReference as reason:
-		return f'## {name}\n\n{reason}.\n'
-	front = fronts.front(runs)
-	if not front: return f'## {name}\n\nNo run has come to its end.\n'
-	picture(name, plan, runs, front, uncertainty, os.path.join(drawn, name + '.png'))
-	failed = [run for run in runs if run.failure]
-	parts = [
-	        f'## {name}\n', measureOf(plan, uncertainty), f'![Error against time]({link}{name}.png)\n', answers(plan, runs, uncertainty), 'The front:\n',
-	        table(['error', 'time [s]', 'solves', 'memory [MiB]', 'setting'], [(f'{run.error:.2%}', f'{run.cpu:.2f}', f'{run.solves:.0f}', f'{run.memory:.0f}', described(run.setting, plan)) for run in front]) + '\n',
-	        knobs(plan, runs), dominated(plan, runs, front), others(plan, runs), threads(runs)
-	]
-	if failed: parts.append('Did not come to an end: ' + '; '.join(f'{described(run.setting, plan)}' for run in failed) + '.\n')
-	return '\n'.join(part for part in parts if part)
-
-
 def measureOf(plan, uncertainty):
-	measures = ', '.join(f'`{name}`' for name in plan.errors + plan.quantities)
-	if not plan.quantities: return f'Error: {measures}, exact.\n'
-	trust = f'; a coarser one differs from it by {uncertainty:.2%}: errors are known no better' if uncertainty > 0 else ''
-	reference = ', '.join(f'{name} {value}' for name, value in plan.reference.items())
-	return f'Error: the largest of {measures}, against our own run with {reference}{trust}.\n'
+	"""What the error of a scene is, and the uncertainty of its reference."""
+	measures = ', '.join(plan.errors + plan.quantities)
+	if not plan.quantities: return measures, 'exact', ''
+	return measures, 'our own run with ' + ', '.join(f'{name} {value}' for name, value in plan.reference.items()), '' if math.isnan(uncertainty) else f'{100 * uncertainty:.2f} %'
 
 
-def answers(plan, runs, uncertainty):
-	lines = []
-	for target in targets:
-		run = fronts.cheapest(runs, target)
-		doubt = ', which is below the uncertainty of the reference' if target < uncertainty else ''
-		if run: lines.append(f'- {target:.1%} error{doubt}: **{described(run.setting, plan)}**, {run.cpu:.2f} s, {run.solves:.0f} solves, {run.memory:.0f} MiB (error {run.error:.2%}).')
-		else: lines.append(f'- {target:.1%} error{doubt}: none of these settings.')
-	return 'The cheapest setting for\n\n' + '\n'.join(lines) + '\n'
+def cheapest(plan, runs, uncertainty):
+	"""Cheapest setting for some errors."""
+	found = [fronts.cheapest(runs, target) for target in targets]
+	doubt = [', uncertain' * (target < uncertainty) for target in targets]
+	return [f'{described(run.setting, plan)}: {run.cpu:.2f} s{mark}' if run else 'none' for run, mark in zip(found, doubt)]
 
 
 def knobs(plan, runs):
-	found = {name: fronts.moves(runs, name, values) for name, values in plan.together.items()}
-	found = {name: moved for name, moved in found.items() if moved}
-	if not found: return ''
+	"""Effects of the combined parameters, those that buy most accuracy first."""
+	found = {name: moved for name, values in plan.together.items() if (moved := fronts.moves(runs, name, values))}
 	worth = {name: fronts.exponent(moved) for name, moved in found.items()}
-	order = sorted(found, key=lambda name: -(worth[name] if worth[name] is not None else -math.inf))
-	lines = [(name, f'{a} → {b}', pairs, f'× {error:.2f}', f'× {time:.2f}') for name in order for a, b, pairs, error, time in found[name]]
-	ranking = ', then '.join(f'`{name}` (error ~ time^{-worth[name]:.2f})' for name in order if worth[name] is not None)
-	return f"What buys accuracy, in this order: {ranking}. Means over pairs of runs that differ in nothing else:\n\n" + table(['knob', 'move', 'pairs', 'error', 'time'], lines) + '\n'
+	for name in sorted(found, key=lambda name: -(worth[name] if worth[name] is not None else -math.inf)):
+		for a, b, pairs, error, time in found[name]: yield name, '' if worth[name] is None else f'{worth[name]:.2f}', f'{a} → {b}', pairs, f'{error:.2f}', f'{time:.2f}'
 
 
-def dominated(plan, runs, front):
-	"""Values of the combined parameters and how many of their runs are on the front."""
-	lines = []
+def never(plan, runs, front):
+	"""Values of the combined parameters that no run on the front has."""
 	for name, values in plan.together.items():
-		tried = {value: sum(run.setting[name] == value for run in fronts.comparable(runs)) for value in values}
-		never = [value for value in values if tried[value] > 2 and not any(run.setting[name] == value for run in front)]
-		if never: lines.append(f"{name} {', '.join(never)}")
-	return f"Never on the front: {'; '.join(lines)}.\n" if lines else ''
+		for value in values:
+			if sum(run.setting[name] == value for run in fronts.comparable(runs)) > 2 and not any(run.setting[name] == value for run in front): yield f'{name} {value}'
 
 
 def others(plan, runs):
-	found = fronts.alternatives(runs, plan)
-	if not found: return ''
-	lines = [(f'{name} {value}', ', '.join(f'{k} {v}' for k, v in centre.items()), failure.partition(' failed: ')[2] or failure or f'× {error:.3f}', '' if failure else f'× {time:.2f}', verdict(error, time, failure))
-	         for name, value, centre, error, time, failure in found]
-	return 'Other settings, against the usual one:\n\n' + table(['setting', 'at', 'error', 'time', ''], lines) + '\n'
+	"""Other settings against the usual one."""
+	for name, value, centre, error, time, failure in fronts.alternatives(runs, plan):
+		at = ', '.join(f'{k} {v}' for k, v in centre.items())
+		ratios = (failure.partition(' failed: ')[2] or failure, '') if failure else (f'{error:.3f}', f'{time:.2f}')
+		yield f'{name} {value}', at, *ratios, verdict(error, time, failure)
 
 
 def verdict(error, time, failure):
 	"""In words; 2 % of the error and 30 % of the time, which it scatters by, count as equal."""
 	if failure: return 'fails'
-	if error > 1.02: return 'dominated' if time > .7 else 'cheaper, less accurate'
-	if error < .98: return 'better' if time < 1.3 else 'dearer, more accurate'
-	return 'dearer, no gain' if time > 1.3 else 'cheaper at no loss' if time < .7 else 'no difference'
+	if error > 1.02: return 'dominated' if time > 0.7 else 'cheaper, less accurate'
+	if error < 0.98: return 'better' if time < 1.3 else 'dearer, more accurate'
+	return 'dearer, no gain' if time > 1.3 else 'cheaper at no loss' if time < 0.7 else 'no difference'
 
 
-def threads(runs):
-	found = []
+def threads(plan, runs):
+	"""Runs with several threads beside those with one."""
 	for run in runs:
 		alone = next((one for one in runs if one.setting == run.setting | {'threads': '1'}), None)
-		if run.setting.get('threads', '1') != '1' and alone and not run.failure: found.append(f"{run.setting['threads']} threads take {run.wall:.2f} s instead of {alone.wall:.2f} s")
-	return f"Wall-clock time: {'; '.join(found)}.\n" if found else ''
+		if run.setting.get('threads', '1') != '1' and alone and not run.failure: yield described(run.setting, plan), f'{alone.wall:.2f}', f'{run.wall:.2f}'
 
 
 def estimates(folder):
-	"""Estimates of mpm.advise for scenes, and the measured values."""
+	"""Estimates of mpm.advise for scenes beside the measured values, and a sentence on them."""
 	with open(os.path.join(folder, 'results', 'estimates.csv'), newline='') as file:
 		rows = [row for row in csv.DictReader(file) if not row['failure']]
-	lines, within, inRange = [], 0, 0
+	lines, within, inRange = [['scene', 'unknowns', 'estimate: time of a step (range) [ms]', 'measured', 'ratio', 'estimate: memory [MiB]', 'measured']], 0, 0
 	for row in rows:
 		time = {name: 1e3 * float(row[name]) for name in ('fastest', 'usual', 'slowest', 'measuredTime')}
-		memory = [float(row[name]) / 2**20 for name in ('estimatedMemory', 'measuredMemory')]
+		memory = [f'{float(row[name]) / 2**20:.1f}' for name in ('estimatedMemory', 'measuredMemory')]
 		ratio, isInRange = fronts.judged(row)
-		within += .5 <= ratio <= 2
-		inRange += isInRange
-		lines.append([
-		        f"{row['scene'].strip(chr(39))} {row['dim']}D, {row['cells']} cells, {row['pointsPerCell']} points, {row['steps']} steps", row['unknowns'],
-		        f"{time['usual']:.3g} ({time['fastest']:.3g} to {time['slowest']:.3g})", f"{time['measuredTime']:.3g}", f'{ratio:.2f}',
-		        f'{memory[0]:.1f}', f'{memory[1]:.1f}'
-		])
-	heads = ['scene', 'unknowns', 'told: time of a step (range) [ms]', 'measured', 'ratio', 'told: memory [MiB]', 'measured']
-	return ESTIMATES + table(heads, lines) + f'\n\nTimes are within a factor of 2 in {within} of {len(rows)} scenes, and inside the range that was told in {inRange}.\n'
+		within, inRange = within + (0.5 <= ratio <= 2), inRange + isInRange
+		scene = f"{row['scene'].strip(chr(39))} {row['dim']}D, {row['cells']} cells, {row['pointsPerCell']} points, {row['steps']} steps"
+		lines.append([scene, row['unknowns'], f"{time['usual']:.3g} ({time['fastest']:.3g} to {time['slowest']:.3g})", f"{time['measuredTime']:.3g}", f'{ratio:.2f}', *memory])
+	return lines, f'{ESTIMATES} Times are within a factor of 2 in {within} of {len(rows)} scenes, and inside the estimated range in {inRange}.'
 
 
-def parts(folder, plans, drawn, link=''):
-	"""A section for each scene, whose picture is drawn into a folder; link: the way to that folder."""
-	found = [section(folder, name, plan, drawn, link) for name, plan in plans.items()]
-	return found + ([estimates(folder)] if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')) else [])
+def tables(folder, plans, drawn):
+	"""File, title, rows and note of all tables and pictures; these are drawn into a folder."""
+	found = {name: [head] for name, (_, _, head) in kinds.items()}
+	pictures = []
+	for name, plan in plans.items():
+		try:
+			runs, uncertainty = fronts.read(folder, name, plan)
+		except fronts.NoReference as reason:
+			found['failures'].append([name, str(reason), ''])
+			continue
+		front = fronts.front(runs)
+		found['failures'] += [[name, run.failure, described(run.setting, plan)] for run in runs if run.failure]
+		if not front: continue
+		picture(name, plan, runs, front, uncertainty, os.path.join(drawn, name + '.png'))
+		pictures.append((name + '.png', f'Error against time: {name}', None))
+		found['cheapest'].append([name, *measureOf(plan, uncertainty), *cheapest(plan, runs, uncertainty)])
+		found['fronts'] += [[name, f'{100 * run.error:.2f} %', f'{run.cpu:.2f}', f'{run.solves:.0f}', f'{run.memory:.0f}', described(run.setting, plan)] for run in front]
+		for kind, rows in dict(knobs=knobs(plan, runs), others=others(plan, runs), threads=threads(plan, runs)).items(): found[kind] += [[name, *row] for row in rows]
+		found['never'] += [[name, ', '.join(values)]] if (values := list(never(plan, runs, front))) else []
+	yield from ((f'{kind}.csv', title, found[kind], note) for kind, (title, note, _) in kinds.items() if len(found[kind]) > 1)
+	yield from pictures
+	if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')):
+		rows, note = estimates(folder)
+		yield 'estimates.csv', 'Estimates of mpm.advise', rows, note
 
 
-def write(folder, plans):
-	"""Page of runs of one's own."""
-	pages.write(folder, [INTRODUCTION, *parts(folder, plans, folder)])
+# title, note and head of each table
+kinds = dict(
+        cheapest=('Cheapest setting for an error', 'Processor time of the script. Uncertain: the error is below the uncertainty of the reference, the difference of a coarser one.', ['scene', 'error of', 'against', 'uncertainty', *(f'{100 * target:g} %' for target in targets)]),
+        fronts=('Fronts', 'Runs that no other beats in both time and error.', ['scene', 'error', 'time [s]', 'solves', 'memory [MiB]', 'setting']),
+        knobs=('Accuracy by parameter', 'Factors on error and time, means over pairs of runs that differ in nothing else; g of error ~ time^-g over all of them.', ['scene', 'parameter', 'g', 'move', 'pairs', 'error', 'time']),
+        others=('Other settings', 'Factors on error and time against the usual setting.', ['scene', 'setting', 'at', 'error', 'time', 'verdict']),
+        never=('Never on the front', '', ['scene', 'settings']),
+        threads=('Threads', 'Time of the wall clock [s].', ['scene', 'setting', 'one thread', 'these threads']),
+        failures=('Runs that do not end', '', ['scene', 'reason', 'setting']))
 
-
-def writeStudy(folder, plans, home=studies.home):
-	"""Page of the kept runs."""
-	pages.write(home, [studies.conclusionOf('trade'), '', *parts(folder, plans, os.path.join(home, 'trade'), 'trade/')], 'trade.md')
-
-
-ESTIMATES = """## How well mpm.advise tells
-
-`examples/trade/estimates.py` compares what `mpm.advise` says before a run with the run. Its constants were fitted to the first twelve of these scenes. The
-number of unknowns is exact for the first step. The cantilever needs more solves than other elastic bodies, which nothing foretells.
-
-"""
-
-INTRODUCTION = """# What accuracy costs, in detail
-
-`scripts/trade` runs a scene with many settings, each in a YADE process of its own, and writes this page (see `--help`; it does the same for a script
-of yours). Times are processor times of the whole script with one thread, without YADE's start; memory comes on top of YADE's own. The runs
-are in `results/`, the settings of the scenes in `plans.py`.
-"""
+ESTIMATES = """`examples/trade/estimates.py` compares estimates of `mpm.advise` before a run with the run. Its constants were fitted to the first twelve of these scenes. The number of unknowns
+is exact for the first step. The cantilever needs more solves than other elastic bodies, which nothing foretells.""".replace('\n', ' ')

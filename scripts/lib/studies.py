@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pages of the studies, plugin/docs/studies: a conclusion written by hand, and below it the kept tables. Needs nothing of YADE.
-
-	/usr/bin/python3 scripts/lib/studies.py                       all pages anew
-	/usr/bin/python3 scripts/lib/studies.py contacts out/contacts keeps the tables of a folder of results first
+"""Pages of the studies, plugin/docs/studies: a conclusion written by hand, and below it the kept tables. scripts/study writes them.
 
 A study NAME has a folder with conclusion.md, its pictures, tables (CSV), and tables.csv, which lists them in order: file, title, command (with day and revision) and note. NAME.md beside the folder is the page. Folders of results have the same
 tables and list. Where a study keeps cases.csv and earlier.csv, rows of new cases replace those of the same case, which go to earlier.csv.
@@ -11,7 +8,7 @@ import csv
 import os
 import re
 import shutil
-import sys
+import time
 
 import pages
 
@@ -46,12 +43,17 @@ def indexOf(folder):
 
 
 def keep(folder, file, title, command, rows, note=''):
-	"""Keep a table, rows with their head first, and list it where a table of that file is listed already, else last."""
-	write(os.path.join(folder, file), rows)
+	"""Keep a table, rows with their head first, and list it where that file is listed already, else last. A picture, which is in the folder, has no rows."""
+	if rows: write(os.path.join(folder, file), rows)
 	index = indexOf(folder)
 	entry = dict(file=file, title=title, command=command, note=note)
 	index = [entry if row['file'] == file else row for row in index] if any(row['file'] == file for row in index) else [*index, entry]
 	write(os.path.join(folder, 'tables.csv'), [listed, *([row[name] for name in listed] for row in index)])
+
+
+def keepAll(folder, tables, command):
+	"""Keep tables, each a file, a title, rows with their head first, None for a picture, and possibly a note."""
+	for file, title, rows, *note in tables: keep(folder, file, title, command if rows else '', rows, *note)
 
 
 def renew(folder, rows):
@@ -65,15 +67,21 @@ def renew(folder, rows):
 
 
 def take(study, results):
-	"""Keep the tables that a folder of results lists."""
+	"""Keep the tables that a folder of results lists, and its pictures, and write the page."""
 	folder, index = os.path.join(home, study), indexOf(results)
 	if not index: raise ValueError(f'{results} lists no tables: name a folder of results that has tables.csv.')
 	for row in index:
-		rows = rowsOf(os.path.join(results, row['file']))
+		rows = rowsOf(os.path.join(results, row['file'])) if row['file'].endswith('.csv') else None
 		if row['file'] == 'cases.csv' and os.path.exists(os.path.join(folder, 'earlier.csv')): renew(folder, rows)
 		else: keep(folder, row['file'], row['title'], row['command'], rows, row['note'])
 	for name in os.listdir(results):
 		if name.endswith('.png'): shutil.copy(os.path.join(results, name), folder)
+	pages.replace(folder + '.md', page(study))
+
+
+def dayOf(path):
+	"""Day of a file, as pages write it."""
+	return time.strftime('%d %B %Y', time.localtime(os.path.getmtime(path)))
 
 
 def markdown(rows):
@@ -82,25 +90,43 @@ def markdown(rows):
 
 
 def conclusionOf(study, values={}):
-	"""Title and conclusion, with values for its {names}; its links are right beside it, and so need another folder on the page."""
+	"""Title and conclusion, with values for its {names}."""
 	folder = os.path.join(home, study)
 	with open(os.path.join(folder, 'conclusion.md')) as file:
 		text = file.read().strip()
 	if not text.startswith('# '): raise ValueError(f'{folder}/conclusion.md begins with {text[:20]!r}; a title, # and a space before it, is admitted. Write one in its first line.')
 	if (count := len(text.split())) > mostWords: raise ValueError(f'{folder}/conclusion.md has {count} words; at most {mostWords} are admitted. Leave numbers to tables.')
 	for name, value in values.items(): text = text.replace('{' + name + '}', str(value))
-	moved = lambda link: os.path.relpath(os.path.join(folder, link[2]), home) if not re.match(r'\w+:|#', link[2]) else link[2]
-	return re.sub(r'(\]\()([^)#\s]*)', lambda link: link[1] + (moved(link) if link[2] else ''), text)
+	return _moved(text, folder)
 
 
-def page(study, values={}, more=''):
-	"""Text of a page; more: what its own writer adds below."""
-	parts = [conclusionOf(study, values), '']
+def _moved(text, folder):
+	"""Text with its links, which are right in the folder of a study, as they are right on its page beside that folder."""
+	moved = lambda link: link if not link or re.match(r'\w+:', link) else os.path.relpath(os.path.join(folder, link), home)
+	return re.sub(r'(\]\()([^)#\s]*)', lambda link: link[1] + moved(link[2]), text)
+
+
+def page(study):
+	"""Text of a page; summary.csv, if there is one, has the values of its conclusion."""
 	folder = os.path.join(home, study)
-	if index := indexOf(folder): parts += ['## Tables', '', *(f"- [{row['title']}](#{anchor(row['title'])})" for row in index), '']
+	summary = os.path.join(folder, 'summary.csv')
+	values = dict(rowsOf(summary)[1:]) if os.path.exists(summary) else {}
+	return '\n'.join([conclusionOf(study, values), '', *sections(folder, lambda text: _moved(text, folder))])
+
+
+def report(folder, title, text):
+	"""Write the page of a folder of results."""
+	pages.write(folder, [f'# {title}\n', text, '', *sections(folder)])
+
+
+def sections(folder, moved=str):
+	"""Contents and all tables and pictures of a folder, each with its command and its note, whose links are moved."""
+	index = indexOf(folder)
+	parts = ['## Tables', '', *(f"- [{row['title']}](#{anchor(row['title'])})" for row in index), ''] if index else []
 	for row in index:
-		parts += [f"### {row['title']}", '', *([row['command'], ''] if row['command'] else []), *([row['note'], ''] if row['note'] else []), markdown(rowsOf(os.path.join(folder, row['file']))), '']
-	return '\n'.join(parts) + more
+		shown = moved(f"![{row['title']}]({row['file']})") if row['file'].endswith('.png') else markdown(rowsOf(os.path.join(folder, row['file'])))
+		parts += [f"### {row['title']}", '', *(text for name in ('command', 'note') if row[name] for text in (moved(row[name]), '')), shown, '']
+	return parts
 
 
 def anchor(title):
@@ -112,8 +138,3 @@ def replaceAll():
 	for study in names():
 		if indexOf(os.path.join(home, study)): pages.replace(os.path.join(home, study + '.md'), page(study))
 
-
-if __name__ == '__main__':
-	if len(sys.argv) == 3: take(*sys.argv[1:])
-	replaceAll()
-	print(f'written: {home}')

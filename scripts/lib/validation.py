@@ -4,10 +4,8 @@ import csv
 import math
 import os
 import re
-import shlex
 
 import pages
-import studies
 
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 examples = os.path.join(root, 'examples')
@@ -162,44 +160,35 @@ def commandOf(folder, command):
 	return f'scripts/run examples/{folder}/{command}'
 
 
-def escaped(text):
-	return text.replace('|', '\\|')
-
-
 def percentOf(difference):
 	return f'{100 * difference:+.2g} %' if difference else '0'
 
 
-def table(rows):
-	lines = []
+def rowsOf(rows):
+	"""Comparisons as rows of a table, head first."""
+	lines = [['what', 'ours', 'theirs', 'difference', 'source of theirs', 'command']]
 	for row in rows:
 		unit = f" {row['unit']}" if row['unit'] not in ('', '-') else ''
-		lines.append([escaped(row['quantity']), row['ours'] + unit, row['theirs'] + unit, percentOf(difference(row)), escaped(row['source']), f"`{row['command']}`"])
-	return pages.table(['what', 'ours', 'theirs', 'difference', 'theirs is of', 'command'], lines)
+		lines.append([row['quantity'], row['ours'] + unit, row['theirs'] + unit, percentOf(difference(row)), row['source'], f"`{row['command']}`"])
+	return lines
 
 
-STUDIES = '''## In studies of their own
-
-The same answers on many grids: [discretisation](../../../examples/discretisation/README.md) (errors and their estimates), [trade](../../../examples/trade/README.md) (errors and what they cost), [extremes](../../../examples/extremes/README.md) (2,347 cases), [load_steps](../../../examples/load_steps/README.md),
-[two_sizes](../../../examples/two_sizes/README.md), and [contact, case by case](contacts.md) by `scripts/contacts`.
-'''
-
-TESTS = '''## In the tests
-
-{count} tests that run on every change are held against closed forms and numbers of others, to tolerances that they name. Those of the core by `build/tests/core_tests --gtest_filter=NAME`, those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.
-'''
-
-
-def page(found):
+def tables(found):
+	"""File, title, rows and note of all tables."""
 	rows = [row for of in found.values() for row in of]
 	sizes = sorted(abs(difference(row)) for row in rows)
-	parts = [studies.conclusionOf('validation', dict(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))), '']
+	summary = dict(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))
+	yield 'summary.csv', 'Summary', [['number', 'value'], *summary.items()], 'Number of comparisons, median of their differences, and the difference that nine of ten are below.'
 	for group, folders in groups.items():
-		links = ', '.join(f'[{folder}](../../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../../examples/README.md#tasks)'
-		parts += [f'## {group}\n', f'From {links}.\n', table(row for folder in folders for row in found[folder]), '']
-	forms, files = closedForms(), {test: file for file, test, _ in ofTests()}
-	listed = pages.table(['test', 'held against', 'file'], [(f"`{row['test']}`", escaped(row['against']), f"`{files[row['test']]}`") for row in forms])
-	return '\n'.join([*parts, STUDIES, TESTS.format(count=len(forms)), listed, ''])
+		links = ', '.join(f'[{folder}](../../../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../../../examples/README.md#tasks)'
+		yield group.lower().replace(',', '').replace(' ', '-') + '.csv', group, rowsOf(row for folder in folders for row in found[folder]), f'From {links}.'
+	files, forms = {test: file for file, test, _ in ofTests()}, closedForms()
+	listed = [['test', 'compared with', 'file'], *([f"`{row['test']}`", row['against'], f"`{files[row['test']]}`"] for row in forms)]
+	yield 'tests.csv', 'In the tests', listed, TESTS.format(count=len(forms))
+
+
+TESTS = """{count} tests that run on every change compare with closed forms and numbers of others, to tolerances that they name. Those of the core by `build/tests/core_tests --gtest_filter=NAME`,
+those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.""".replace('\n', ' ')
 
 
 def kindOf(source):
@@ -226,7 +215,3 @@ def picture(found, path):
 	ax.set_xticks([1e-3, 1e-2, 0.1, 1, 10, 100], ['below 0.001', '0.01', '0.1', '1', '10', '100'])
 	ax.legend(frameon=False, loc='upper center', bbox_to_anchor=(0.5, 1.1), ncols=3)
 	figure.savefig(path, dpi=120)
-
-
-def split(command):
-	return shlex.split(command)

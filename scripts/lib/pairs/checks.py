@@ -7,7 +7,7 @@ import tempfile
 import numpy as np
 
 import yade
-from yade import mpm, pack, utils
+from yade import log, mpm, pack, utils
 from yade.wrapper import *
 
 from .features import refusals, refused
@@ -17,6 +17,7 @@ from .scene import Scene, density, gravity
 from .view import View, views
 
 O = Omega()
+log.setLevel('Default', log.ERROR)  # many scenes are warned of, for gravity that acts upwards in a view
 # Operations that are exact in binary numbers, and sum nothing in another order, keep the bits: see
 # differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}

@@ -7,7 +7,7 @@ import subprocess
 
 from conftest import Yade, root
 
-from contacts.page import misses, table
+from contacts.tables import misses, rows
 from contacts.plan import Case, cases, derived
 
 folder = root / 'scripts/lib/contacts'
@@ -33,8 +33,7 @@ def test_what_is_not_there_is_missed():
 	case = Case('a', 'b.c', {}, {}, dict(N=(1, 2), part=(.9, 1)))
 	assert misses(case, dict(N=1.5, part=1)) == [] and misses(case, dict(N=3., part=.5)) == ['N', 'part']
 	assert misses(case, dict(N='nan', part=1)) == ['N'] and misses(case, dict(why='crash')) == ['N', 'part']
-	page = table(dict(a=case), dict(a=dict(N=3., part=1, why='it | stops')), 'scripts/contacts a', 'r', 'today')
-	assert '| a | N 3, part 1 — it / stops | N 1 ... 2; part 0.9 ... 1 | **N** |' in page and '0 of 1 cases' in page
+	assert rows(dict(a=case), dict(a=dict(N=3., part=1, why='it | stops'))) == [['a', 'N 3, part 1 — it / stops', 'N 1 ... 2; part 0.9 ... 1', '**N**']]
 
 
 def test_the_limit_of_the_cone():
@@ -62,7 +61,7 @@ def test_cases_that_are_right(yade):
 	found = json.loads((out / 'contacts.json').read_text())
 	assert set(found) == {*right, 'energy-random'}, run.stdout + run.stderr
 	assert not [name for name in right if misses(cases[name], found[name])], run.stdout
-	assert found['energy-random']['scenes'] == 3 and '| clumps |' in (out / 'contacts.md').read_text()
+	assert found['energy-random']['scenes'] == 3 and '| clumps |' in (out / 'README.md').read_text()
 	assert run.returncode == int(any(misses(cases[name], result) for name, result in found.items()))
 
 

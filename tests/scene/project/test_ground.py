@@ -6,14 +6,14 @@ import subprocess
 
 from conftest import Yade, root
 
-from ground.page import page
+from ground.tables import findings, kinds
 
 
-def test_the_page_tells_what_stops_or_is_wrong():
+def test_the_tables_have_what_stops_or_is_wrong():
 	row = dict(seed='1', scene='cut 2D sand', how='ends', part='1', why='', wrong='', solves='20', cuts='0', seconds='.5')
-	text = page([row, row | dict(seed='2', how='stops', part='.5', why='it | stops'), row | dict(seed='3', wrong='thrust 3')], 'scripts/ground', 'r', 'today')
-	assert '1 of 3 scenes end' in text and '| cut | 3 | 2 | 0 | 0 | 0 | 1 | 1 |' in text
-	assert '| 2 | cut 2D sand | 0.50 | it / stops |' in text and '| 3 | cut 2D sand | 1.00 | wrong: thrust 3 |' in text
+	rows = [row, row | dict(seed='2', how='stops', part='.5', why='it | stops'), row | dict(seed='3', wrong='thrust 3')]
+	assert kinds(rows)[1][:8] == ['cut', '3', '2', '0', '0', '0', '1', '1']
+	assert findings(rows)[1:] == [['2', 'cut 2D sand', '0.50', 'it / stops'], ['3', 'cut 2D sand', '1.00', 'wrong: thrust 3']]
 
 
 def test_scenes_of_the_ground_end(yade):
@@ -25,4 +25,4 @@ def test_scenes_of_the_ground_end(yade):
 	assert len(rows) == 30 and len({row['scene'].split(' ')[0] for row in rows}) > 5
 	# Some cuts in sand that nothing can hold stand all the same, on grids as coarse and in steps as few: they are told as wrong.
 	assert not [row for row in rows if row['how'] == 'stops' or row['wrong'] and not (row['scene'].startswith('cut') and row['wrong'].startswith('moved'))], run.stdout + run.stderr
-	assert 'scripts/ground --seeds 0:30' in (out / 'ground.md').read_text()
+	assert 'scripts/ground --seeds 0:30' in (out / 'README.md').read_text()

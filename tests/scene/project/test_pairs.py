@@ -3,7 +3,6 @@
 import json
 import os
 import subprocess
-import sys
 
 import pytest
 
@@ -15,7 +14,7 @@ from pairs.view import View
 from worker import runCases
 
 numberOf = dict(laws=5, flow=5, water=5, beams=5, bodies=4, contact=5, energy=5)
-worker = root / 'scripts/lib/pairs/worker.py'
+worker = root / 'scripts/lib/caserun.py'
 
 
 def findings(folder, cases, monkeypatch, threads=2):
@@ -24,7 +23,8 @@ def findings(folder, cases, monkeypatch, threads=2):
 	monkeypatch.setenv('OMP_WAIT_POLICY', 'passive')
 	told = lambda chosen: chosen if isinstance(chosen, str) else ' '.join(chosen)
 	found, number = [], 0
-	for (chosen, seed), result in runCases([Yade(folder).command, '-n', '-x', f'-j{threads}', str(worker)], cases, 60):
+	functions = [('', 'pairs.checks.checkKind', dict(name=chosen, seed=seed)) if isinstance(chosen, str) else ('', 'pairs.checks.check', dict(chosen=chosen, seed=seed)) for chosen, seed in cases]
+	for (chosen, seed), (_, result) in zip(cases, runCases([Yade(folder).command, '-n', '-x', f'-j{threads}', str(worker)], functions, 60)):
 		number += 1
 		if isinstance(result, str): found.append(f'{seed} {told(chosen)}: {result}')
 		else: found += [f'{seed} {told(chosen)}: {line}' for line in result['findings']]
@@ -112,6 +112,6 @@ print(json.dumps(checkKind('water', 1)))
 def test_a_scene_as_a_script_of_its_own(yade):
 	"""It needs nothing of the generator, and gives what the worker has compared."""
 	script = yade.folder / 'scene.py'
-	subprocess.run([sys.executable, str(root / 'scripts/pairs'), '--only', '0', '--times', '1', '--script', str(script)], check=True, env=os.environ)
+	subprocess.run([root / 'scripts/pairs', '--only', '0', '--times', '1', '--script', str(script)], check=True, env=os.environ)
 	assert 'pairs' not in script.read_text()
 	assert 'kineticEnergy' in yade(script).stdout or 'elasticEnergy' in yade(script).stdout

@@ -115,6 +115,6 @@ def test_the_kept_pages_are_made_from_the_kept_tables(tmp_path):
 
 
 def test_wrong_arguments_are_refused():
-	for arguments, message in (['fig3'], 'unknown argument fig3'), ([], 'nothing to run'):
+	for arguments, message in (['fig3'], 'there is no figure or table fig3'), ([], 'nothing to run'):
 		ended = subprocess.run([root / 'scripts/reproduce', *arguments], capture_output=True, text=True)
 		assert ended.returncode == 1 and message in ended.stderr

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from conftest import Yade, root
 
-from sand.page import extrapolated, page
+from sand.tables import extrapolated, tables
 
 
 def test_three_grids_are_extrapolated_by_the_order_that_they_show():
@@ -15,8 +15,8 @@ def test_three_grids_are_extrapolated_by_the_order_that_they_show():
 	assert extrapolated([1 + 1., 1 + .25, 1 + .0625]) == pytest.approx(1)
 	assert extrapolated([2., 1., 1.5]) == 2  # no order is shown: the first
 	row = dict.fromkeys(['iterations', 'cuts', 'points', 'seconds', 'why'], '') | {'group': 'factors', 'case': 'N_q, 20', 'with': '1 x 1', 'exact': '2', 'quarter': '', 'whole': '2.2', 'late': ''}
-	text = page([row | dict(grid=grid, quarter=load) for grid, load in (('B/9', '4'), ('B/17', '3'), ('B/33', '2.5'))], 'scripts/sand', 'today', 'r')
-	assert '| N_q, 20 | 1 x 1 | B/9 | 2 | 4 (+100.0 %) | 2.2 (+10.0 %) | - |' in text and '| N_q, 20 | 1 x 1 | +0.0 % | +10.0 % |' in text
+	loads, limits = (rows[1] for _, _, rows in tables([row | dict(grid=grid, quarter=load) for grid, load in (('B/9', '4'), ('B/17', '3'), ('B/33', '2.5'))]))
+	assert loads[:7] == ['N_q, 20', '1 x 1', 'B/9', '2', '4 (+100.0 %)', '2.2 (+10.0 %)', '-'] and limits == ['N_q, 20', '1 x 1', '+0.0 %', '+10.0 %']
 
 
 def test_one_point_a_cell_is_right_on_coarse_grids_and_four_are_not(yade):

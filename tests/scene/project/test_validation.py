@@ -10,7 +10,10 @@ import pytest
 from conftest import root
 
 sys.path.insert(0, str(root / 'scripts' / 'lib'))
+import studies
 import validation
+
+home = root / 'plugin/docs/studies/validation'
 
 # Words by which a script says that it prints a number of others beside its own
 compares = re.compile(r"\bprint\(.*(closed form|exact \S*\{|by hand|published|elastica|limit analysis|half space|Lame |Hertz|Prandtl|Timoshenko|theory|reference)")
@@ -19,7 +22,9 @@ others = {'discretisation', 'trade', 'extremes', 'two_sizes', 'load_steps', 'spl
 
 
 def test_the_page_is_what_the_tables_say():
-	assert (root / 'plugin/docs/studies/validation.md').read_text() == validation.page(validation.everything())
+	made = list(validation.tables(validation.everything()))
+	assert [(row['file'], row['title']) for row in studies.indexOf(home)] == [(file, title) for file, title, *_ in made]
+	for file, _, rows, _ in made: assert studies.rowsOf(home / file) == [[str(cell) for cell in row] for row in rows], file
 
 
 def test_each_run_has_rows_and_each_row_a_run():
@@ -60,7 +65,7 @@ def test_a_run_gives_again_what_is_kept(yade, tmp_path):
 	again, kept = validation.kept('column', tmp_path), validation.kept('column')
 	assert [row['quantity'] for row in again] == [row['quantity'] for row in kept]
 	assert all(float(row['ours']) == pytest.approx(float(other['ours']), rel=1e-6) for row, other in zip(again, kept))
-	assert (tmp_path / 'validation.md').exists() and (tmp_path / 'validation' / 'validation.png').stat().st_size > 20000
+	assert (tmp_path / 'README.md').exists() and (tmp_path / 'validation.png').stat().st_size > 20000
 
 
 def test_wrong_arguments_are_refused():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""In YADE: runs the cases of a JSON file, each a function of a module of contacts, or of another package that is named, and its arguments, and prints what they return, as worker.runCases wants it. PYTHONPATH has scripts/lib."""
+"""In YADE: runs the cases of a JSON file, each a key, the name of a function and its arguments, and prints what they return, as worker.runCases reads it."""
 import importlib
 import json
 import os
@@ -23,9 +23,9 @@ def plain(value):
 
 
 def run(function, arguments):
-	*package, module, name = function.split('.')
+	module, _, name = function.rpartition('.')
 	try:
-		return plain(getattr(importlib.import_module('.'.join([*(package or ['contacts']), module])), name)(**arguments))
+		return plain(getattr(importlib.import_module(module), name)(**arguments))
 	except Exception as error:
 		traceback.print_exc()
 		return dict(why=f'{type(error).__name__}: {error}'[:300])

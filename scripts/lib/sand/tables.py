@@ -2,8 +2,6 @@
 """The cases of scripts/sand as tables."""
 from math import isnan, log2
 
-import studies
-
 titles = dict(
         factors='Strips over grids',
         early='Strips of one point a cell at a settlement of 0.00025 B',
@@ -62,24 +60,12 @@ def extrapolations(rows):
 
 
 def tables(rows):
-	"""(name, title, rows with their head first) of all groups."""
+	"""(file, title, rows with their head first) of all groups."""
 	for group, title in titles.items():
 		of = [row for row in rows if row['group'] == group]
 		if not of: continue
 		if group == 'cuts':
-			for state in dict.fromkeys(row['case'] for row in of): yield f"cuts-{state.lower().replace(', ', '-')}", f'{title}, {state}', conditions([row for row in of if row['case'] == state])
+			for state in dict.fromkeys(row['case'] for row in of): yield f"cuts-{state.lower().replace(', ', '-')}.csv", f'{title}, {state}', conditions([row for row in of if row['case'] == state])
 			continue
-		yield group, title, loads(of)
-		if group in ('factors', 'limit', 'walls') and len(limits := extrapolations(of)) > 1: yield f'{group}-limit', f'{title}, extrapolated to cells of no size', limits
-
-
-def page(rows, command, revision, day):
-	"""In Markdown, without what is said about it."""
-	lines = [f'`{command}`, {day}, revision {revision}.', '']
-	for _, title, of in tables(rows): lines += [f'### {title}', '', studies.markdown(of), '']
-	return '\n'.join(lines)
-
-
-def keep(rows, command, revision, day, folder):
-	"""Keeps tables of the study of sand in a folder of results."""
-	for name, title, of in tables(rows): studies.keep(folder, f'{name}.csv', title, f'`{command}`, {day}, revision {revision}', of)
+		yield f'{group}.csv', title, loads(of)
+		if group in ('factors', 'limit', 'walls') and len(limits := extrapolations(of)) > 1: yield f'{group}-limit.csv', f'{title}, extrapolated to cells of no size', limits
