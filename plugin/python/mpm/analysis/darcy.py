@@ -245,12 +245,6 @@ class _Leak:
 			self.conductance.append(wall.permittivity / body.weight * length * body.h)
 		self.node, self.values, self.conductance = np.array(nodes, int).reshape(-1, 8), np.array(values).reshape(-1, 8), np.array(self.conductance)
 
-	def times(self, p):
-		return np.bincount(self.node.ravel(), ((self.conductance * (self.values * p[self.node]).sum(axis=1))[:, None] * self.values).ravel(), len(p))
-
-	def diagonal(self, count):
-		return np.bincount(self.node.ravel(), (self.conductance[:, None] * self.values**2).ravel(), count)
-
 
 class _Outlet:
 	"""A face, at points that are exact for what is linear in the cells. Below *level* there is the pressure of the water before it, above water may come out."""
@@ -300,7 +294,7 @@ def _solve(body, outlets, highest):
 	wetness = np.ones(len(body.volume))
 	size = body.weight * max(np.ptp(body.heights), body.h)
 	for step in range(_mostSteps):
-		new = _Linear(body, outlets, p, wetness).solve(p)
+		new = _pressures(body, outlets, p, wetness)
 		change = abs(new - p).max()
 		p = new
 		now = body.wetness(p)
@@ -309,43 +303,26 @@ def _solve(body, outlets, highest):
 	raise RuntimeError(f'seepage: the free surface is not found in {_mostSteps} steps: pressures still change by {change:.3g} Pa. Are the cells too large for the body, or its materials too different?')
 
 
-class _Linear:
-	"""The equations of one iterate, of a symmetric positive matrix."""
-
-	def __init__(self, body, outlets, p, wetness):
-		flow = wetness * body.kappa * body.volume
-		self.body, self.flow = body, flow
-		self.faces = [(outlet, outlet.conducts(p)) for outlet in outlets]
-		self.leaks = body.leaks
-		n = len(body.nodes)
-		self.right = np.bincount(body.node.ravel(), (-body.weight * flow[:, None] * body.slopes[:, :, 1]).ravel(), n)
-		diagonal = np.bincount(body.node.ravel(), (flow[:, None] * (body.slopes**2).sum(axis=2)).ravel(), n)
-		for outlet, skin in self.faces:
-			self.right += np.bincount(outlet.node.ravel(), ((skin * outlet.given)[:, None] * outlet.values).ravel(), n)
-			diagonal += np.bincount(outlet.node.ravel(), (skin[:, None] * outlet.values**2).ravel(), n)
-		for leak in self.leaks: diagonal += leak.diagonal(n)
-		self.scale = 1 / diagonal
-
-	def times(self, p):
-		body = self.body
-		slope = np.einsum('pa,pai->pi', p[body.node], body.slopes)
-		y = np.bincount(body.node.ravel(), (self.flow[:, None] * np.einsum('pi,pai->pa', slope, body.slopes)).ravel(), len(p))
-		for leak in self.leaks: y += leak.times(p)
-		for outlet, skin in self.faces:
-			y += np.bincount(outlet.node.ravel(), ((skin * outlet.pressure(p))[:, None] * outlet.values).ravel(), len(p))
-		return y
-
-	def solve(self, p):
-		"""Conjugate gradients."""
-		r = self.right - self.times(p)
-		z = self.scale * r
-		direction, size, enough = z.copy(), r @ z, 1e-20 * (self.right @ (self.scale * self.right))
-		for _ in range(20 * len(p)):
-			if size <= enough: break
-			across = self.times(direction)
-			length = size / (direction @ across)
-			p = p + length * direction
-			r -= length * across
-			z = self.scale * r
-			direction, size = z + (r @ z) / size * direction, r @ z
-		return p
+def _pressures(body, outlets, p, wetness):
+	"""Solution of the equations of one iterate, by conjugate gradients from its pressures on. Their matrix is singular where a part of the soil has no outlet."""
+	from scipy.sparse import coo_matrix
+	flow, skins, count = wetness * body.kappa * body.volume, [outlet.conducts(p) for outlet in outlets], len(p)
+	ofValues = lambda weight, values: weight[:, None, None] * values[:, :, None] * values[:, None, :]
+	terms = [(body.node, flow[:, None, None] * np.einsum('pai,pbi->pab', body.slopes, body.slopes))]
+	terms += [(outlet.node, ofValues(skin, outlet.values)) for outlet, skin in zip(outlets, skins)] + [(leak.node, ofValues(leak.conductance, leak.values)) for leak in body.leaks]
+	entries, rows, columns = (np.concatenate(parts) for parts in zip(*((x.ravel(), np.repeat(node, node.shape[1]), np.tile(node, node.shape[1]).ravel()) for node, x in terms)))
+	matrix = coo_matrix((entries, (rows, columns)), (count, count)).tocsr()
+	right = np.bincount(body.node.ravel(), (-body.weight * flow[:, None] * body.slopes[:, :, 1]).ravel(), count)
+	for outlet, skin in zip(outlets, skins): right += np.bincount(outlet.node.ravel(), ((skin * outlet.given)[:, None] * outlet.values).ravel(), count)
+	scale = 1 / matrix.diagonal()
+	r = right - matrix @ p
+	direction = scale * r
+	size, enough = r @ direction, 1e-20 * (right @ (scale * right))
+	for _ in range(20 * count):
+		if size <= enough: break
+		across = matrix @ direction
+		length = size / (direction @ across)
+		p, r = p + length * direction, r - length * across
+		size, before = r @ (scale * r), size
+		direction = scale * r + size / before * direction
+	return p

@@ -135,14 +135,14 @@ def _facingOutwards(triangles, places, fileName):
 
 def _shells(triangles):
 	"""Number of the shell of each triangle (N,): those that are joined by vertices have the same."""
-	label = np.arange(triangles.max() + 1)
-	while True:
-		least = label[triangles].min(axis=1)
-		grown = label.copy()
-		np.minimum.at(grown, triangles, least[:, None])
-		grown = grown[grown]
-		if (grown == label).all(): return np.unique(label[triangles[:, 0]], return_inverse=True)[1].ravel()
-		label = grown
+	return _connected(np.concatenate([triangles[:, :2], triangles[:, 1:]]), triangles.max() + 1)[triangles[:, 0]]
+
+
+def _connected(pairs, count):
+	"""Number of the part (count,) that each of so many belongs to, which pairs (N, 2) connect."""
+	from scipy.sparse import coo_matrix
+	from scipy.sparse.csgraph import connected_components
+	return connected_components(coo_matrix((np.ones(len(pairs)), tuple(np.transpose(pairs))), (count, count)), directed=False)[1]
 
 
 def _isAround(triangles, point):
@@ -156,16 +156,10 @@ def _isAround(triangles, point):
 
 
 def _joined(points, step):
-	"""Number of the vertex of each point (N,). Neighbours on both sides of a rounding limit are one, too."""
-	groups = [np.unique(np.round(points / step + offset), axis=0, return_inverse=True)[1].ravel() for offset in (0, 0.5)]
-	label, before = np.arange(len(points)), None
-	while before is None or (label != before).any():
-		before = label
-		for group in groups:
-			first = np.full(group.max() + 1, len(points))
-			np.minimum.at(first, group, label)
-			label = first[group]
-	return np.unique(label, return_inverse=True)[1]
+	"""Number of the vertex of each point (N,), those that are closer than a step are one, and so are chains of them."""
+	from scipy.spatial import cKDTree
+	places, number = np.unique(points, axis=0, return_inverse=True)
+	return _connected(cKDTree(places).query_pairs(step, output_type='ndarray'), len(places))[number.ravel()]
 
 
 def _requireClosed(triangles, places, fileName):
@@ -190,9 +184,5 @@ def _requireClosed(triangles, places, fileName):
 
 def _hole(edges):
 	"""Mask of the edges that belong to the same rim as the first one."""
-	reached = set(edges[0].tolist())
-	while True:
-		mask = np.isin(edges, list(reached)).any(axis=1)
-		grown = set(edges[mask].ravel().tolist())
-		if grown == reached: return mask
-		reached = grown
+	parts = _connected(edges, edges.max() + 1)[edges[:, 0]]
+	return parts == parts[0]

@@ -143,7 +143,8 @@ def _finite(residuals, count):
 
 def _starts(problem, samples):
 	"""The best three of the material's own values, and of points that fill the bounds evenly (Halton's sequence), which are refused nowhere."""
-	candidates = [[_halton(i + 1, base) for _, base in zip(problem.parameters, _primes())] for i in range(samples)]
+	from scipy.stats.qmc import Halton
+	candidates = Halton(len(problem.parameters), scramble=False).random(samples + 1)[1:].tolist()
 	own = [_placeOf(p, getattr(problem.material, p.name)) for p in problem.parameters]
 	middle = [0.5 if at is None else at for at in own]
 	found = []
@@ -158,25 +159,6 @@ def _placeOf(p, value):
 	"""From 0 to 1; None if the value is not between the bounds."""
 	if not p.low < value < p.high: return None
 	return math.log(value / p.low) / math.log(p.high / p.low) if p.byLogarithm else (value - p.low) / (p.high - p.low)
-
-
-def _primes():
-	found = []
-	while True:
-		number = found[-1] + 1 if found else 2
-		while any(number % prime == 0 for prime in found):
-			number += 1
-		found.append(number)
-		yield number
-
-
-def _halton(i, base):
-	value, part = 0., 1.
-	while i:
-		i, digit = divmod(i, base)
-		part /= base
-		value += digit * part
-	return value
 
 
 def _search(problem, leastSquares, starts, readings):
