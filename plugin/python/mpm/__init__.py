@@ -29,7 +29,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 ===========================  ==========================================================================================
 :func:`polygon`              region of the x-y plane
 :func:`solid`                region in a closed surface of an STL or GTS file
-:class:`terrain`             region below a surface: an elevation grid (.asc), an array or a function; :func:`facets` makes it rock that does not yield
+:class:`terrain`             region below a surface: an elevation grid (.asc, GeoTIFF), an array or a function; :func:`facets` makes it rock that does not yield
 :func:`fill`                 material points in a region; :func:`add` puts them into the scene, of several processes each its own
 :func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back

@@ -169,6 +169,45 @@ print(json.dumps([same, refused(mpm.terrain, grid('exchanged.asc', 'cellsize 1\\
 	assert box == [[0.5, 1, -1], [5.5, 7, 24]]
 
 
+def test_grids_of_other_formats_are_read_by_gdal(yade):
+	"""GeoTIFF with a hole, as ESRI ASCII has the same heights; and what is refused: feet, rows askew, no coordinates, no GDAL."""
+	same, refusals = yade(asc + '''
+import sys
+import numpy as np
+from osgeo import gdal, osr
+rows = np.arange(24.).reshape(4, 6) + 1
+def tif(name, frame=(10, 2, 0, 8, 0, -2), epsg=25832, unit=''):
+	made = gdal.GetDriverByName('GTiff').Create(name, 6, 4, 1, gdal.GDT_Float32)
+	if frame: made.SetGeoTransform(frame)
+	system = osr.SpatialReference()
+	system.ImportFromEPSG(epsg)
+	made.SetProjection(system.ExportToWkt())
+	made.GetRasterBand(1).SetUnitType(unit)
+	made.GetRasterBand(1).SetNoDataValue(-9999)
+	made.GetRasterBand(1).WriteArray(rows)
+	return name
+places = [(11 + 2 * i, 1 + 2 * j) for i in range(6) for j in range(4)] + [(12.5, 3.25)]
+heights = lambda name, **part: mpm.terrain(name, -1, **part).heights(places).tolist()
+open('rows.asc', 'w').write('ncols 6\\nnrows 4\\nxllcorner 10\\nyllcorner 0\\ncellsize 2\\n' + '\\n'.join(' '.join(map(str, row)) for row in rows))
+expected = heights('rows.asc')
+same = [heights(tif('a.tif')) == expected]
+rows = rows[::-1]
+same.append(heights(tif('south.tif', (10, 2, 0, 0, 0, 2))) == expected)
+rows = rows[::-1].copy()
+rows[0, 5] = -9999
+refusals = [refused(mpm.terrain, tif('hole.tif'), -1), refused(mpm.terrain, tif('feet.tif', epsg=2263), -1), refused(mpm.terrain, tif('high.tif', unit='ft'), -1)]
+refusals += [refused(mpm.terrain, tif('askew.tif', (10, 2, 1, 8, 0, -2)), -1), refused(mpm.terrain, tif('nowhere.tif', None), -1)]
+open('text.tif', 'w').write('no picture')
+refusals.append(refused(mpm.terrain, 'text.tif', -1))
+sys.modules['osgeo'] = None
+try: mpm.terrain('a.tif', -1)
+except ImportError as error: refusals.append(str(error))
+print(json.dumps([same, refusals]))
+''').result
+	assert all(same)
+	for said, words in zip(refusals, ("'hole.tif' has no height at (21.0, 7.0)", 'US survey foot', "heights are in 'ft'", 'do not run along x', 'does not say where', 'GDAL says', 'apt install python3-gdal'), strict=True): assert words in said, said
+
+
 def test_facets_of_rock(yade):
 	"""Facets of a function, an array, a file and a terrain: a plane keeps its area and normal, corners lie on the surface, and soil rests on them with its weight."""
 	result = yade('''

@@ -7,17 +7,19 @@ from yade import pack, utils
 from yade.minieigenHP import Vector3
 
 from ..base.messages import brief, isNumber, pathOf, place
+from .elevations import read
 
 
 class terrain(pack.Predicate):
 	"""Predicate of the ground below a surface, down to a bottom; z is the height. Between the points of the grid of heights it is bilinear.
 
-	:param top: heights of the surface [m]: the path of an elevation grid (ESRI ASCII, .asc), a function of x and y, or an array with one row for each x, from *min* on
+	:param top: heights of the surface [m]: the path of an elevation grid (ESRI ASCII, .asc; any other format of GIS, as GeoTIFF, by GDAL, python3-gdal), a function of x and y, or an array with one row for each x, from *min* on
 	:param bottom: height of the bottom [m], a number or as for *top*, as of the top of the rock
 	:param min: lower corner (x, y) of the part that is wanted [m], in the coordinates of the file; by default all of the grid
 	:param max: upper corner; both are needed for a function, and *min* for an array
 	:param origin: (x, y) in the coordinates of the file [m] that becomes x = y = 0: national grids have seven digits before the point
 	:param spacing: distance [m] > 0 of the heights in an array, or at which a function is asked
+	:raises ImportError: a file of another format than ESRI ASCII, and GDAL is not installed.
 	:raises OSError: a file cannot be read.
 	:raises TypeError: an argument of the wrong kind.
 	:raises ValueError: a file that is no elevation grid, or one in degrees; no height known in the part that is wanted; heights that are not finite; or a bottom above the surface; the place is named.
@@ -77,7 +79,7 @@ def facets(surface, spacing=None, min=(-math.inf, -math.inf), max=(math.inf, mat
 
 	They are fixed, and felt from above and below. Grains need ``Bo1_Facet_Aabb`` and ``Ig2_Facet_Sphere_ScGeom`` besides.
 
-	:param surface: heights [m]: the path of an elevation grid (ESRI ASCII, .asc), a :class:`terrain`, of which its top is meant, a function of x and y, or an array with one row for each x, from *min* on
+	:param surface: heights [m]: the path of an elevation grid, as for :class:`terrain`, a terrain, of which its top is meant, a function of x and y, or an array with one row for each x, from *min* on
 	:param spacing: width of the cells [m] > 0; by default that of the grid; needed for a function and an array, of which it is the distance of the heights
 	:param min: lower corner (x, y) of the part that is wanted [m], in the coordinates of the file; by default all of it
 	:param max: upper corner; both are needed for a function, and *min* for an array
@@ -86,6 +88,7 @@ def facets(surface, spacing=None, min=(-math.inf, -math.inf), max=(math.inf, mat
 	:param mask: groupMask of the bodies, by which MpmContact.mask finds them
 	:param color: of the bodies, three numbers from 0 to 1; by default grey
 	:return: list of bodies, for ``O.bodies.append``
+	:raises ImportError: a file of another format than ESRI ASCII, and GDAL is not installed.
 	:raises OSError: a file cannot be read.
 	:raises TypeError: an argument of the wrong kind.
 	:raises ValueError: a file that is no elevation grid, or one in degrees; a part in which heights are not known; a spacing that is missing or not > 0; a label that is not in ``O.materials``.
@@ -136,7 +139,8 @@ def heightsOf(who, name, given, low, high, spacing):
 		if values.ndim != 2 or np.min(values.shape) < 2: raise TypeError(f'{who}: {name} = {brief(given)} must be an array of heights, at least 2 by 2, with one row for each x')
 		if not np.isfinite(low).all(): raise ValueError(f'{who}: {name} is an array, which needs min, the position (x, y) of its first height')
 		return Heights(values, low, step, f'the array {name}', who)
-	return fromFile(pathOf(who, name, given), who)
+	path = pathOf(who, name, given)
+	return Heights(*read(path, who), repr(path), who)
 
 
 def _asked(who, name, function, low, steps, number):
@@ -194,8 +198,8 @@ class Heights:
 		raise ValueError(
 		        f'{self.who}: {self.name} is {high[0] - low[0]:.3g} wide, {high[1] - low[1]:.3g} long and {np.ptp(known):.3g} m high, around ({longitude:.6g}, {latitude:.6g}): are these degrees of '
 		        f'longitude and latitude? One degree is {metres[0] / 1e3:.4g} km along x and {metres[1] / 1e3:.4g} km along y there, so that its cells of {self.step:.3g} would be '
-		        f'{self.step * metres[0]:.3g} m by {self.step * metres[1]:.3g} m. Have a GIS project it to metres, as by gdalwarp -t_srs EPSG:{(32600 if latitude >= 0 else 32700) + zone} (UTM zone {zone}) and '
-		        'gdal_translate -of AAIGrid, and give mpm.' + self.who + ' an origin near it.'
+		        f'{self.step * metres[0]:.3g} m by {self.step * metres[1]:.3g} m. Have a GIS project it to metres, as by gdalwarp -t_srs EPSG:{(32600 if latitude >= 0 else 32700) + zone} (UTM zone {zone}), and '
+		        'give mpm.' + self.who + ' an origin near it.'
 		)
 
 	def requireKnown(self, low, high):
@@ -228,55 +232,6 @@ class Heights:
 		u, v = ((places - self.low) / self.steps).T - (i, j)
 		z = self.values
 		return (1 - u) * ((1 - v) * z[i, j] + v * z[i, j + 1]) + u * ((1 - v) * z[i + 1, j] + v * z[i + 1, j + 1])
-
-
-def fromFile(fileName, who):
-	"""Heights of an elevation grid (ESRI ASCII)."""
-	header, rows = _read(fileName, who)
-	steps = np.array([header.get('dx', header.get('cellsize')), header.get('dy', header.get('cellsize'))])
-	half = [0 if f'{axis}llcenter' in header else step / 2 for axis, step in zip('xy', steps)]
-	corner = [header.get(f'{axis}llcenter', header.get(f'{axis}llcorner')) for axis in 'xy']
-	values = np.where(rows == header.get('nodata_value', -9999), np.nan, rows)[::-1].T  # the first row is the northern one
-	return Heights(values, np.array(corner) + half, steps, repr(fileName), who)
-
-
-def _read(fileName, who):
-	refuse = lambda what: ValueError(f'{who}: {fileName!r} is no elevation grid (ESRI ASCII): {what}')
-	header, lines = {}, []
-	with open(fileName, encoding='utf-8', errors='replace') as file:
-		for line in file:
-			words = line.split()
-			if words and not lines and words[0][0].isalpha() and words[0].lower() != 'nan':
-				try:
-					header[words[0].lower()] = float(words[1])
-				except (IndexError, ValueError):
-					raise refuse(f'its header has the line {brief(line.strip())}') from None
-			elif words: lines.append(line)
-	sizes = ('dx', 'dy') if {'dx', 'dy'} & set(header) else ('cellsize', )
-	if 'cellsize' in header and sizes != ('cellsize', ): raise refuse('its header has cellsize beside dx or dy, which say the same; leave one of them')
-	missing = [name for name in ('ncols', 'nrows', *sizes) if name not in header] + [axis + 'llcorner' for axis in 'xy' if not {axis + 'llcorner', axis + 'llcenter'} & set(header)]
-	if missing: raise refuse(f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not in its header")
-	try:
-		values = np.array(' '.join(lines).split(), float)
-	except ValueError as error:
-		raise refuse(error) from None
-	for name in 'nrows', 'ncols':
-		if header[name] != int(header[name]): raise refuse(f'{name} = {header[name]:g} is no whole number')
-	shape = int(header['nrows']), int(header['ncols'])
-	if values.size != shape[0] * shape[1] or min(shape) < 2: raise refuse(f'{shape[0]} rows of {shape[1]} heights are announced, at least 2 of each, and {values.size} are there')
-	for name in sizes:
-		if not (math.isfinite(header[name]) and header[name] > 0): raise refuse(f'{name} = {header[name]:g} must be > 0 and finite')
-	widths = [len(line.split()) for line in lines]
-	areWrapped = len(set(widths[:-1])) <= 1 and widths[-1] <= widths[0] and len(lines) != shape[0] and (len(lines), widths[0]) != shape[::-1]  # at a width of their own; not a height lost in one row, nor nrows and ncols exchanged
-	ends = np.cumsum(widths)
-	cut = np.setdiff1d(shape[1] * np.arange(1, shape[0] + 1), ends)
-	if cut.size and not areWrapped:
-		row, line = cut[0] // shape[1], np.searchsorted(ends, cut[0])
-		raise refuse(
-		        f'each of its {shape[0]} rows has {shape[1]} heights (ncols), but row {row} does not end with a line: line {line + 1} of the heights has {len(lines[line].split())}; is ncols '
-		        'right, or has a height been lost or doubled?'
-		)
-	return header, values.reshape(shape)
 
 
 def _pair(who, name, value):
