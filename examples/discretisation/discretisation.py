@@ -21,6 +21,7 @@ from results import Results, makeFolder
 import page
 import scenes
 import stresses
+import studies
 
 options = readOptions('The estimated error of known answers.',
         scenes=('', 'names of scenes with commas between; all of them if empty'),
@@ -66,5 +67,5 @@ for file, measure, known, columns in kinds:
 			table.add([dict(scene=name, cells=cells) | measure(name, known[name], cells)])
 
 page.write(options.out)
-page.writeStudy(options.out, options.out)
+studies.keepAll(options.out, page.tables(options.out), '')
 print(f'written: {options.out}/README.md and pictures')

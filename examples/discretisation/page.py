@@ -81,28 +81,28 @@ def picture(cases, found, path):
 
 
 def quantityTable(cases):
-	lines = []
+	lines = [['quantity', 'against', 'cells', 'true error', 'estimate', 'ratio', 'remarks']]
 	for name, scene in scenes.scenes.items():
 		for case in (case for case in cases if case['scene'] == name):
 			ratio = case['estimate'] / case['true']
 			remarks = ([] if case['oneWay'] else ['up and down']) + ([] if case['settled'] else ['not settled']) + ([] if within([ratio]) else ['**not within two**'])
 			first = case is next(other for other in cases if other['scene'] == name)
 			lines.append((scene.what if first else '', scene.against if first else '', case['cells'], pages.percent(case['true']), pages.percent(case['estimate']), f'{ratio:.2f}', ', '.join(remarks)))
-	return pages.table(['quantity', 'against', 'cells', 'true error', 'estimate', 'ratio', ''], lines)
+	return lines
 
 
 def stressTable(found):
-	lines = []
+	lines = [['scene', 'against', 'cells', 'true error', 'estimate', 'ratio']]
 	for name, scene in stresses.scenes.items():
 		some = [row for row in found if row['scene'] == name]
 		if not some: continue
 		numbers = [[float(row[column]) for row in some] for column in ('true', 'estimate')]
 		lines.append((scene.what, scene.against, *(', '.join(texts) for texts in (
 		        [row['cells'] for row in some], *([pages.percent(x) for x in column] for column in numbers), [f'{estimate / true:.2f}' for true, estimate in zip(*numbers)]))))
-	return pages.table(['scene', 'against', 'cells', 'true error', 'estimate', 'ratio'], lines)
+	return lines
 
 
-def counts(cases, found):
+def counts(cases):
 	"""Number of estimates within a factor of two."""
 	ratio = lambda some, name='estimate': [case[name] / case['true'] for case in some]
 	known = [case for case in cases if scenes.scenes[case['scene']].against != scenes.smaller]
@@ -112,11 +112,13 @@ def counts(cases, found):
 	        'not settled': [case for case in cases if not case['settled']]
 	}
 	lines = [(name, len(some), within(ratio(some)), f'{min(ratio(some)):.2f} to {max(ratio(some)):.2f}', within(ratio(some, 'order')), within(ratio(some, 'coarse'))) for name, some in groups.items() if some]
-	text = pages.table(['cases', '', 'within two', 'ratios', 'with the order of three grids', 'from cells of twice the size'], lines) + '\n'
-	if found:
-		of = [float(row['estimate']) / float(row['true']) for row in found]
-		text += f'\nStresses: {within(of)} of {len(of)} within a factor of two, {within(of, 1.25)} within 1.25; ratios {min(of):.2f} to {max(of):.2f}.\n'
-	return text
+	return [['cases', '', 'within two', 'ratios', 'with the order of three grids', 'from cells of twice the size'], *lines]
+
+
+def ofStresses(found):
+	"""Number of estimates of stresses within a factor of two, as a sentence."""
+	of = [float(row['estimate']) / float(row['true']) for row in found]
+	return f'Stresses: {within(of)} of {len(of)} within a factor of two, {within(of, 1.25)} within 1.25; ratios {min(of):.2f} to {max(of):.2f}.' if of else ''
 
 
 FINDINGS = """# Errors of the cells, estimated
@@ -149,15 +151,17 @@ CHANGE = """## What to change
 def write(folder):
 	cases, found = judged(folder), rows(folder, 'stresses')
 	if cases or found: picture(cases, found, os.path.join(folder, 'discretisation.png'))
-	pages.write(folder, [FINDINGS, counts(cases, found), CHANGE])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), studies.markdown(counts(cases)), f'\n{ofStresses(found)}\n' if found else '', CHANGE])
 
 
-def writeStudy(folder, home=studies.home):
-	"""All cases of the kept runs."""
+def tables(folder):
+	"""File, title, rows and note of all tables."""
 	cases, found = judged(folder), rows(folder, 'stresses')
-	pages.write(home, [studies.conclusionOf('discretisation'), '', '## How many', '', counts(cases, found), '## Quantities', '', quantityTable(cases), '', '## Stresses', '', stressTable(found), ''], 'discretisation.md')
+	yield 'counts.csv', 'How many', counts(cases), ofStresses(found)
+	yield 'quantities.csv', 'Quantities', quantityTable(cases)
+	yield 'stresses.csv', 'Stresses', stressTable(found)
 
 
-if __name__ == '__main__': # of the kept runs
+if __name__ == '__main__':  # of the kept runs
 	write(here)
-	writeStudy(here)
+	studies.publish('discretisation', tables(here), '')

@@ -19,6 +19,7 @@ from examplerun import runExample
 from options import readOptions
 from results import Results, makeFolder
 import page
+import studies
 from scenes import scenes
 
 options = readOptions('Load steps chosen by their error.',
@@ -73,5 +74,5 @@ for name in chosen:
 		table.add([dict(scene=name, steps=steps, part=part, tolerance=f'{tolerance:.4g}') | row])
 		print(name, steps, part, *row.values(), flush=True)
 page.write(options.out)
-page.writeStudy(options.out, options.out)
+studies.keepAll(options.out, page.tables(options.out), '')
 print(f'written: {options.out}/README.md and its picture')

@@ -56,7 +56,7 @@ def comparison(found):
 			beside = [f"{best['steps']:.0f}", f"{best['solves']:.0f}", f"{row['solves'] / best['solves']:.2f}"] if best else ['', '', '']
 			lines.append((scenes[name].what if row is chosen[0] else '', f"{row['tolerance']:.2g}", pages.percent(row['part']), pages.percent(row['error']), f"{row['made']:.0f} ({row['cuts']:.0f})",
 			              f"{row['solves']:.0f}", *beside))
-	return pages.table(['scene', 'stepTolerance [m]', 'of the displacement', 'error', 'steps (cuts)', 'solves', 'fixed steps', 'solves', 'ratio'], lines)
+	return [['scene', 'stepTolerance [m]', 'of the displacement', 'error', 'steps (cuts)', 'solves', 'fixed steps', 'solves', 'ratio'], *lines]
 
 
 def fixedTable(found):
@@ -65,13 +65,13 @@ def fixedTable(found):
 	for name, (fixed, _) in found.items():
 		of = {row['steps']: row for row in fixed}
 		lines.append((scenes[name].what, *(f"{pages.percent(of[steps]['error'])}, {of[steps]['solves']:.0f}" if steps in of else '' for steps in heads)))
-	return pages.table(['steps', *(f'{steps:.0f}' for steps in heads)], lines)
+	return [['steps', *(f'{steps:.0f}' for steps in heads)], *lines]
 
 
 def verdict(found):
 	ratios = {name: [row['solves'] / best['solves'] for row in chosen for best in [cheapest(fixed, row['error'])] if best] for name, (fixed, chosen) in found.items()}
 	lines = [(scenes[name].what, len(of), sum(ratio <= 1.6 for ratio in of), f'{min(of):.2f} to {max(of):.2f}') for name, of in ratios.items() if of]
-	return pages.table(['scene', 'tolerances', 'at most 1.6 times the solves', 'ratios'], lines)
+	return [['scene', 'tolerances', 'at most 1.6 times the solves', 'ratios'], *lines]
 
 
 FINDINGS = """# Load steps chosen by their error
@@ -106,15 +106,17 @@ CHANGE = """## What to change
 def write(folder):
 	found = runs(folder)
 	picture(found, os.path.join(folder, 'load_steps.png'))
-	pages.write(folder, [FINDINGS, verdict(found), '', CHANGE])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), studies.markdown(verdict(found)), '', CHANGE])
 
 
-def writeStudy(folder, home=studies.home):
-	"""All runs of the kept tables."""
+def tables(folder):
+	"""File, title and rows of all tables."""
 	found = runs(folder)
-	pages.write(home, [studies.conclusionOf('load_steps'), '', '## How many', '', verdict(found), '', '## Tolerances', '', comparison(found), '', '## Fixed numbers of steps', '', 'Error, solves:', '', fixedTable(found), ''], 'load_steps.md')
+	yield 'counts.csv', 'How many', verdict(found)
+	yield 'tolerances.csv', 'Tolerances', comparison(found)
+	yield 'fixed.csv', 'Fixed numbers of steps', fixedTable(found), 'Error, solves.'
 
 
-if __name__ == '__main__': # of the kept runs
+if __name__ == '__main__':  # of the kept runs
 	write(here)
-	writeStudy(here)
+	studies.publish('load_steps', tables(here), '')

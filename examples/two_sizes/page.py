@@ -92,7 +92,7 @@ def savings(found, exponent):
 			byDistance = max((run['plane'] for run in some if run['choice'] in ('near', 'way')), default=np.nan)
 			lines.append((title, levels, f"{best['choice']} {best['extent']:g}", pages.percent(best['off']), f"{best['unknowns']:.0f}", f"{best['equal']:.0f}", small,
 			              f"**{best['plane']:.1f}**", f'{byDistance:.1f}', f"{best['plane']**exponent:.1f}" if exponent else '', f"{best['round']:.1f}"))
-	return pages.table(['scene', 'halved', 'best choice', 'error', 'unknowns', 'equal cells', 'equal cells, small block', 'times fewer', 'by distance', 'times faster', 'times fewer in 3D'], lines)
+	return [['scene', 'halved', 'best choice', 'error', 'unknowns', 'equal cells', 'equal cells, small block', 'times fewer', 'by distance', 'times faster', 'times fewer in 3D'], *lines]
 
 
 def shortSavings(found):
@@ -113,7 +113,7 @@ def check(runs):
 		if not both: continue
 		texts = [f"{run['cells']:.0f}" for run in both], [f"{100 * run['error']:+.1f} %" for run in both], [f"{100 * plugin[run['cells']]:+.1f} %" for run in both]
 		lines.append((titles[scene], *map(', '.join, texts)))
-	return pages.table(['scene', 'cells', 'here', 'the plugin, F-bar'], lines)
+	return [['scene', 'cells', 'here', 'the plugin, F-bar'], *lines]
 
 
 def picture(runs, found, path):
@@ -146,34 +146,10 @@ def limitLoads(measured):
 		beside = ('', '') if isEqual else (f"{equal['unknowns'] / row['unknowns']:.1f}", f"{100 * (row['load'] / equal['load'] - 1):+.2f} %")
 		lines.append((*of, f"{row['unknowns']:.0f}", beside[0], f"{row['points']:.0f}", f"{row['load']:.4f}", beside[1], f"{row['solves']:.0f}", f"{row['seconds']:.1f}"))
 	heads = ['footing', 'cells over half the width', 'smallest to', 'unknowns', 'times fewer', 'points', 'N_c', 'beside equal cells', 'solves', 'processor seconds']
-	note = '*Smallest to*: how far from the edge of the footing, and below it, cells are smallest. One thread; rows of halved cells by `--equal 0 --reach 1,0.7,0.5`. The largest load within 16 load steps.'
-	return [pages.table(heads, lines), '', note, '']
+	return [heads, *lines]
 
 
-FINDINGS = """# Gain of cells of two sizes
-
-How many unknowns do smaller cells in a part of the grid save, with the same error of a limit load? A strip footing, a vertical cut, and a rough bar that moves through clay are compared, in undrained clay with F-bar.
-
-## Run it
-
-    scripts/run two_sizes                                 # all of it: 7 minutes
-    scripts/run two_sizes --scenes cut --largest 20       # 10 s
-
-## Picture
-
-![Error against unknowns](two_sizes.png)
-
-## Numbers
-
-- **Make the block no larger than the failing soil first**: equal cells in a block of 1.5 B x B need a fifth of the unknowns of a large one.
-- **Cells halved twice** save 4.5 to 7.7 times the unknowns in the plane, and more in 3D. With `MpmGrid.refinements` a footing in a large block has 3.8 times fewer unknowns and the same limit load to 0.04 %.
-- **Cells halved once** save 2.5 to 3.1 times.
-
-![Mean stress below the footing](footing.png)
-"""
-
-STUDY = """[The study](../../plugin/docs/studies/two_sizes.md) tells how unknowns were counted.
-"""
+FOOTINGS = '*Smallest to*: how far from the edge of the footing, and below it, cells are smallest. One thread; rows of halved cells by `--equal 0 --reach 1,0.7,0.5`. The largest load within 16 load steps.'
 
 CHANGE = """## What to change
 
@@ -185,7 +161,7 @@ def write(folder):
 	runs = settled(rows(os.path.join(folder, 'results', 'runs.csv')))
 	found, exponent, _ = powers(runs)
 	picture(runs, found, os.path.join(folder, 'two_sizes.png'))
-	pages.write(folder, [FINDINGS, shortSavings(found), '', STUDY, CHANGE])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), studies.markdown(savings(found, exponent)), '', CHANGE])
 
 
 def powers(runs):
@@ -194,16 +170,16 @@ def powers(runs):
 	return judged(runs), np.mean(list(growth.values())) if growth else None, growth
 
 
-def writeStudy(folder, home=studies.home):
-	"""All tables of the kept runs."""
+def tables(folder):
+	"""File, title, rows and note of all tables."""
 	measured = rows(os.path.join(folder, 'results', 'runs.csv'))
 	found, exponent, growth = powers(settled(measured))
-	parts = [studies.conclusionOf('two_sizes'), '', '## Saving at equal error', '', savings(found, exponent), '']
-	if growth: parts += ['Time of a solve of the plugin with equal cells: unknowns to the power ' + ', '.join(f'{power:.2f} ({name})' for name, power in growth.items()) + f'; the table takes {exponent:.2f}.', '']
-	parts += ['## Equal cells, here and in the plugin', '', check(measured), '', '## Footings of the plugin', '', *limitLoads(rows(os.path.join(folder, 'results', 'footing.csv')))]
-	pages.write(home, parts, 'two_sizes.md')
+	powersOf = ', '.join(f'{power:.2f} ({name})' for name, power in growth.items())
+	yield 'savings.csv', 'Saving at equal error', savings(found, exponent), f'Time of a solve of the plugin with equal cells: unknowns to the power {powersOf}; the table takes {exponent:.2f}.' if growth else ''
+	yield 'equal.csv', 'Equal cells, here and in the plugin', check(measured)
+	yield 'footings.csv', 'Footings of the plugin', limitLoads(rows(os.path.join(folder, 'results', 'footing.csv'))), FOOTINGS
 
 
-if __name__ == '__main__': # of the kept runs
+if __name__ == '__main__':  # of the kept runs
 	write(here)
-	writeStudy(here)
+	studies.publish('two_sizes', tables(here), '')

@@ -23,6 +23,7 @@ sys.path[:0] = [folder, os.path.join(folder, '..'), os.path.join(folder, '..', '
 from options import readOptions
 from results import Results, makeFolder
 import page
+import studies
 from scenes import scenes
 
 options = readOptions('Limit loads with cells of several sizes.',
@@ -83,5 +84,5 @@ for row in sorted(plan, key=lambda row: row[1]):
 	table.add([dict(zip(['scene', 'cells', 'levels', 'choice', 'extent'], row)) | found])
 	print(*row, *found.values(), flush=True)
 page.write(options.out)
-page.writeStudy(options.out, options.out)
+studies.keepAll(options.out, page.tables(options.out), '')
 print(f'written: {options.out}/README.md and its picture')

@@ -56,6 +56,12 @@ def keepAll(folder, tables, command):
 	for file, title, rows, *note in tables: keep(folder, file, title, command if rows else '', rows, *note)
 
 
+def publish(study, tables, command):
+	"""Keep the tables of a study, and write its page."""
+	keepAll(os.path.join(home, study), tables, command)
+	pages.replace(os.path.join(home, study + '.md'), page(study))
+
+
 def renew(folder, rows):
 	"""Put rows of cases, their head first, in the place of those of the same cases, which go to the end of the earlier ones."""
 	paths = [os.path.join(folder, name) for name in ('cases.csv', 'earlier.csv')]
@@ -85,7 +91,7 @@ def dayOf(path):
 
 
 def markdown(rows):
-	escaped = [[cell.replace('|', '\\|') for cell in row] for row in rows]
+	escaped = [[str(cell).replace('|', '\\|') for cell in row] for row in rows]
 	return pages.table(escaped[0], escaped[1:])
 
 
