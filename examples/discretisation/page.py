@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Page and pictures of how well errors are estimated, from the tables in the folder results/; needs nothing of YADE."""
-import csv
 import math
 import os
 import sys
@@ -11,16 +10,14 @@ import stresses
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('examples', ), ('scripts', 'lib'), ('plugin', 'python', 'mpm', 'analysis'))]
 import pages
+import results
 import studies
 from style import plt
 from refinement import errorOf
 
 
 def rows(folder, name):
-	path = os.path.join(folder, 'results', name + '.csv')
-	if not os.path.exists(path): return []
-	with open(path, newline='') as file:
-		return list(csv.DictReader(file))
+	return results.read(os.path.join(folder, 'results', name + '.csv'))
 
 
 def ladders(folder):

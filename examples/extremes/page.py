@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables and maps of the stability atlas, from the table in its folder results/."""
-import csv
 import math
 import os
 import sys
@@ -9,6 +8,7 @@ import pictures
 from axes import axes, ghosts, groups
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'scripts', 'lib'))
+import results
 from pages import number
 
 names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, h³'}
@@ -17,10 +17,9 @@ names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, 
 def read(folder):
 	"""Rows of the table, numbers converted: {(axis, dim, ghost, value as in axes.py): row}."""
 	rows = {}
-	with open(os.path.join(folder, 'results', 'atlas.csv'), newline='') as file:
-		for row in csv.DictReader(file):
-			row = {name: number(text) for name, text in row.items()} | dict(value=row['value'], failure=row['failure'])
-			rows[row['axis'], int(row['dim']), row['ghost'], row['value']] = row
+	for row in results.read(os.path.join(folder, 'results', 'atlas.csv')):
+		row = {name: number(text) for name, text in row.items()} | dict(value=row['value'], failure=row['failure'])
+		rows[row['axis'], int(row['dim']), row['ghost'], row['value']] = row
 	return rows
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Page and picture of load steps chosen by their error, from the table in the folder results/; needs nothing of YADE."""
-import csv
 import os
 import sys
 
@@ -10,6 +9,7 @@ from scenes import scenes
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(here, '..'), os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pages
+import results
 import studies
 from style import plt
 
@@ -18,8 +18,7 @@ parts = 0.04, 0.02, 0.01, 0.005, 0.002  # stepTolerance over the displacement at
 
 def runs(folder):
 	"""Runs by scene that have come to an end, those with fixed steps and those with a tolerance."""
-	with open(os.path.join(folder, 'results', 'runs.csv'), newline='') as file:
-		rows = [{name: pages.number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+	rows = results.read(os.path.join(folder, 'results', 'runs.csv'), pages.number)
 	ended = [row for row in rows if row['error'] == row['error']]
 	return {name: [[row for row in ended if row['scene'] == name and bool(row['part']) == chosen] for chosen in (False, True)] for name in scenes if any(row['scene'] == name for row in ended)}
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Writes README.md and the pictures of a folder of results: every number of ours is read from the tables in its folder results/. With --kept that page is a short one, and all tables go to a page of the studies."""
 import argparse
-import csv
 import math
 import os
 import re
@@ -15,6 +14,7 @@ sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
 import pages
 import studies
 from pages import number, table
+from results import read as readTable
 
 options = argparse.ArgumentParser(description=__doc__)
 options.add_argument('--out', default='out/paper', help='folder of the results (default %(default)s)')
@@ -25,9 +25,7 @@ folder = options.out
 
 def read(path):
 	"""Rows of a table as dictionaries; an empty list if there is no such table."""
-	if not os.path.exists(path): return []
-	with open(path, newline='') as file:
-		return [{name: number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+	return readTable(path, number)
 
 
 def results(name):

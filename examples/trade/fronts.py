@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of the runs of a plan: errors, the front of time and error, and the worth of each knob."""
-import csv
 import math
 import os
 from dataclasses import dataclass
+
+import results
 
 
 @dataclass
@@ -27,8 +28,7 @@ def read(folder, name, plan):
 
 	NoReference is raised if it did not come to its end, or a quantity is zero there.
 	"""
-	with open(os.path.join(folder, 'results', name + '.csv'), newline='') as file:
-		rows = list(csv.DictReader(file))
+	rows = results.read(os.path.join(folder, 'results', name + '.csv'))
 	find = lambda special: next((row for row in rows if special and all(row[k] == v for k, v in (plan.parameters | special).items())), None)
 	reference, check = find(plan.reference), find(plan.check)
 	if plan.quantities and reference:

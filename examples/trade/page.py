@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables and pictures of what accuracy costs, from the runs in the folder results/."""
-import csv
 import math
 import os
 
 import fronts
+import results
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
@@ -105,8 +105,7 @@ def threads(plan, runs):
 
 def estimates(folder):
 	"""Estimates of mpm.advise for scenes beside the measured values, and a sentence on them."""
-	with open(os.path.join(folder, 'results', 'estimates.csv'), newline='') as file:
-		rows = [row for row in csv.DictReader(file) if not row['failure']]
+	rows = [row for row in results.read(os.path.join(folder, 'results', 'estimates.csv')) if not row['failure']]
 	lines, within, inRange = [['scene', 'unknowns', 'estimate: time of a step (range) [ms]', 'measured', 'ratio', 'estimate: memory [MiB]', 'measured']], 0, 0
 	for row in rows:
 		time = {name: 1e3 * float(row[name]) for name in ('fastest', 'usual', 'slowest', 'measuredTime')}

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Panels of error against cost from the tables of examples/trade and of other examples: one for each scene, plain Python."""
-import csv
 import os
 from dataclasses import dataclass, field
 
 import fronts
 from pages import number
 from plans import plans
+from results import read
 
 here = os.path.dirname(os.path.abspath(__file__))
 letters = dict(cells='n', pointsPerCell='p', steps='s', stiffness='k', tolerance='b', fBar='') # settings that speak for themselves have no letter
@@ -72,8 +72,7 @@ def cost(panel, point):
 
 def rows(*path):
 	"""Rows of a table of another example, numbers converted."""
-	with open(os.path.join(here, '..', *path), newline='') as file:
-		return [{name: number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+	return read(os.path.join(here, '..', *path), number)
 
 
 titles = { # scene of plans.py: title, measure, what n counts, choice that is shown apart

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pages and picture of what cells of several sizes would save, from results/runs.csv and the times kept in examples/trade, and of what they save in the plugin, from
 results/footing.csv; needs nothing of YADE."""
-import csv
 import os
 import sys
 
@@ -10,6 +9,7 @@ import numpy as np
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path += [os.path.join(here, '..'), os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pages
+import results
 import studies
 from style import plt
 
@@ -17,9 +17,7 @@ titles = dict(footing='footing', tightFooting='footing, small block', cut='cut',
 
 
 def rows(path):
-	if not os.path.exists(path): return []
-	with open(path, newline='') as file:
-		return [{name: pages.number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+	return results.read(path, pages.number)
 
 
 def ladder(runs, scene):

@@ -27,6 +27,23 @@ def makeFolder(out):
 		sys.exit(f'{os.path.basename(sys.argv[0])}: nothing can be written to the folder {folder} (--out): {error.strerror}')
 
 
+def read(path, convert=str):
+	"""Rows of a CSV file as dictionaries of texts, or of what *convert* makes of each; none if there is no such file."""
+	if not os.path.exists(path): return []
+	with open(path, newline='') as file:
+		return [{name: convert(text) for name, text in row.items()} for row in csv.DictReader(file)]
+
+
+def write(path, columns, rows):
+	"""Write dictionaries to a CSV file, at once and as a whole."""
+	os.makedirs(os.path.dirname(path), exist_ok=True)
+	with open(path + '.new', 'w', newline='') as file:
+		table = csv.DictWriter(file, columns, lineterminator='\n')
+		table.writeheader()
+		table.writerows(rows)
+	os.replace(path + '.new', path)
+
+
 class Results:
 	"""A table in <out>/results/<name>.csv. Each row is written when it is known, so that an interrupted run can be continued.
 
@@ -59,12 +76,7 @@ class Results:
 		for row in rows:
 			row = {name: str(row[name]) for name in self.columns}
 			self.rows[self._key(row)] = row
-		os.makedirs(os.path.dirname(self.path), exist_ok=True)
-		with open(self.path + '.new', 'w', newline='') as file:
-			table = csv.DictWriter(file, self.columns, lineterminator='\n')
-			table.writeheader()
-			table.writerows(self.rows.values())
-		os.replace(self.path + '.new', self.path)
+		write(self.path, self.columns, self.rows.values())
 
 	def _key(self, row):
 		return tuple(row[name] for name in self.keys)

@@ -11,6 +11,7 @@ import shutil
 import time
 
 import pages
+import results
 
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 home = os.path.join(root, 'plugin', 'docs', 'studies')
@@ -36,10 +37,7 @@ def write(path, rows):
 
 def indexOf(folder):
 	"""Tables of a folder, in order, as dictionaries of file, title, command and note."""
-	path = os.path.join(folder, 'tables.csv')
-	if not os.path.exists(path): return []
-	with open(path, newline='') as file:
-		return list(csv.DictReader(file))
+	return results.read(os.path.join(folder, 'tables.csv'))
 
 
 def keep(folder, file, title, command, rows, note=''):
@@ -48,7 +46,7 @@ def keep(folder, file, title, command, rows, note=''):
 	index = indexOf(folder)
 	entry = dict(file=file, title=title, command=command, note=note)
 	index = [entry if row['file'] == file else row for row in index] if any(row['file'] == file for row in index) else [*index, entry]
-	write(os.path.join(folder, 'tables.csv'), [listed, *([row[name] for name in listed] for row in index)])
+	results.write(os.path.join(folder, 'tables.csv'), listed, index)
 
 
 def keepAll(folder, tables, command):
@@ -72,16 +70,16 @@ def renew(folder, rows):
 	write(paths[0], [head, *(new.pop(row[0], row) for row in old), *new.values()])
 
 
-def take(study, results):
+def take(study, made):
 	"""Keep the tables that a folder of results lists, and its pictures, and write the page."""
-	folder, index = os.path.join(home, study), indexOf(results)
-	if not index: raise ValueError(f'{results} lists no tables: name a folder of results that has tables.csv.')
+	folder, index = os.path.join(home, study), indexOf(made)
+	if not index: raise ValueError(f'{made} lists no tables: name a folder of results that has tables.csv.')
 	for row in index:
-		rows = rowsOf(os.path.join(results, row['file'])) if row['file'].endswith('.csv') else None
+		rows = rowsOf(os.path.join(made, row['file'])) if row['file'].endswith('.csv') else None
 		if row['file'] == 'cases.csv' and os.path.exists(os.path.join(folder, 'earlier.csv')): renew(folder, rows)
 		else: keep(folder, row['file'], row['title'], row['command'], rows, row['note'])
-	for name in os.listdir(results):
-		if name.endswith('.png'): shutil.copy(os.path.join(results, name), folder)
+	for name in os.listdir(made):
+		if name.endswith('.png'): shutil.copy(os.path.join(made, name), folder)
 	pages.replace(folder + '.md', page(study))
 
 

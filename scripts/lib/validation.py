@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Comparisons of the plugin: the runs that make them, the tables that are kept of them, and the page of all of them. For scripts/validate; needs nothing of YADE."""
-import csv
 import math
 import os
 import re
 
 import pages
+import results
 
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 examples = os.path.join(root, 'examples')
@@ -61,18 +61,11 @@ groups = {
 
 
 def kept(folder, of=examples):
-	path = os.path.join(of, folder, 'compared.csv')
-	if not os.path.exists(path): return []
-	with open(path, newline='') as file:
-		return list(csv.DictReader(file))
+	return results.read(os.path.join(of, folder, 'compared.csv'))
 
 
 def write(folder, rows, of=examples):
-	os.makedirs(os.path.join(of, folder), exist_ok=True)
-	with open(os.path.join(of, folder, 'compared.csv'), 'w', newline='') as file:
-		table = csv.DictWriter(file, columns, lineterminator='\n')
-		table.writeheader()
-		table.writerows(rows)
+	results.write(os.path.join(of, folder, 'compared.csv'), columns, rows)
 
 
 _found = re.compile(r'(?P<what>[^:]*): .*?(?:= |: |settlement |stress |height )(?P<ours>-?\d\S*)(?: (?P<unit>\S+))?(?: on the base)?, (?:by hand|published|by experiments|without a stop) (?P<theirs>[-\d.e+]+)')
@@ -88,24 +81,21 @@ def ofTask(script, printed):
 
 def ofPaper():
 	"""Iterations of the slope beside the paper's, of runs that have come to their end there and here."""
-	with open(os.path.join(examples, 'paper', 'published.csv'), newline='') as file:
-		published = [row for row in csv.DictReader(file) if 'fails' not in row['result']]
-	with open(os.path.join(examples, 'paper', 'results', 'slope.csv'), newline='') as file:
-		ours = {(float(row['cellSize']), int(row['pointsPerCell']), float(row['factor'])): row for row in csv.DictReader(file) if row['lineSearchTrials'] == '0' and not row['failure']}
-	for row in published:
+	slopes = results.read(os.path.join(examples, 'paper', 'results', 'slope.csv'))
+	ours = {(float(row['cellSize']), int(row['pointsPerCell']), float(row['factor'])): row for row in slopes if row['lineSearchTrials'] == '0' and not row['failure']}
+	for row in results.read(os.path.join(examples, 'paper', 'published.csv')):
 		run = ours.get((float(row['cellSize']), int(row['pointsPerCell']), float(row['factor'])))
-		if not run or float(row['factor']) == 0: continue
+		if not run or 'fails' in row['result'] or float(row['factor']) == 0: continue
 		what = f"iterations a step of the slope, h = {row['cellSize']} m, {row['pointsPerCell']} x {row['pointsPerCell']} points, ghost factor {row['factor']}"
 		yield dict(command=f"scripts/reproduce table{row['table']}", quantity=what, ours=f"{float(run['meanIterations']) + 1:.4g}", theirs=row['result'].split()[0], unit='', source=f"Coombs 2023, table {row['table']}")
 
 
 def ofSplitting():
-	with open(os.path.join(examples, 'splitting', 'results', 'splitting.csv'), newline='') as file:
-		for row in csv.DictReader(file):
-			if row['failure'] or not row['exact'] or float(row['exact']) in (0, 1) and row['scene'] != 'press' or math.isnan(float(row['exact'])): continue
-			source = 'Lube et al. 2005, experiments' if row['scene'].startswith('runout') else 'closed form, large strains'
-			yield dict(command=f"scripts/run splitting --scenes {row['scene']} --cases {row['points']}/{row['maxSplits']}", quantity=f"{row['scene']}, {row['points']} x {row['points']} points a cell, maxSplits {row['maxSplits']}",
-			           ours=f"{float(row['measured']):.4g}", theirs=f"{float(row['exact']):.4g}", unit='', source=source)
+	for row in results.read(os.path.join(examples, 'splitting', 'results', 'splitting.csv')):
+		if row['failure'] or not row['exact'] or float(row['exact']) in (0, 1) and row['scene'] != 'press' or math.isnan(float(row['exact'])): continue
+		source = 'Lube et al. 2005, experiments' if row['scene'].startswith('runout') else 'closed form, large strains'
+		yield dict(command=f"scripts/run splitting --scenes {row['scene']} --cases {row['points']}/{row['maxSplits']}", quantity=f"{row['scene']}, {row['points']} x {row['points']} points a cell, maxSplits {row['maxSplits']}",
+		           ours=f"{float(row['measured']):.4g}", theirs=f"{float(row['exact']):.4g}", unit='', source=source)
 
 
 def everything(of=examples):
@@ -121,8 +111,7 @@ def difference(row):
 
 def closedForms():
 	"""Sources of the tests: rows of test, against."""
-	with open(os.path.join(root, 'tests', 'data', 'closed_forms.csv'), newline='') as file:
-		return list(csv.DictReader(file))
+	return results.read(os.path.join(root, 'tests', 'data', 'closed_forms.csv'))
 
 
 words = re.compile(r"closed form|by hand|published|Rankine|Prandtl|Hertz|Boussinesq|Lame|Coulomb's law|Skempton|Griffiths|limit analysis|Timoshenko|elastica\b|Archimedes|Terzaghi|Davis|Clapeyron|independent implementation")

@@ -5,9 +5,9 @@ import io
 import os
 import re
 import sys
-import tempfile
 import time
 
+from examplerun import runExample
 from yade.wrapper import Omega
 
 O = Omega()
@@ -17,15 +17,8 @@ script = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.di
 def example(scene, seconds=300, **options):
 	"""Error of the scene's number against its closed form, as the script tells it; *seconds* is not looked at."""
 	O.reset()
-	began, said, kept = time.process_time(), io.StringIO(), (sys.argv, list(sys.path))
-	with tempfile.TemporaryDirectory() as folder:
-		sys.argv = [script, '--scene', scene, '--picture', '0', '--out', folder, *(text for name, value in options.items() for text in (f'--{name}', str(value)))]
-		names = dict(vars(sys.modules['__main__']), __file__=script)
-		try:
-			with open(script) as file, contextlib.redirect_stdout(said):
-				exec(compile(file.read(), script, 'exec'), names)
-		finally:
-			sys.argv, sys.path[:] = kept
+	began, said = time.process_time(), io.StringIO()
+	with contextlib.redirect_stdout(said): names = runExample(script, vars(sys.modules['__main__']), scene=scene, picture=0, **options)
 	failed = re.findall(r'step \d+ of \d+ fails: .*', said.getvalue())
 	pressure = re.search(r'largest mean pressure.*\(([+-][\d.]+) %\)', said.getvalue())
 	more = dict(pressure=float(pressure[1]) / 100) if pressure else {}

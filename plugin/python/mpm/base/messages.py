@@ -25,6 +25,14 @@ def numberOf(who, name, value, expected, admits=lambda value: True):
 	return float(value)
 
 
+def numbersIn(value):
+	"""Array of the numbers of a sequence; empty if there is something else in it."""
+	try:
+		return np.asarray(value, float)
+	except (TypeError, ValueError):
+		return np.empty(0)
+
+
 def place(vector):
 	"""The numbers of a vector in brackets, whatever the version of NumPy calls its own."""
 	return str(tuple(map(float, vector)))

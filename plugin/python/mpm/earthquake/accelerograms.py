@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..base.messages import brief, pathOf
+from ..base.messages import brief, numbersIn, pathOf
 from . import networks
 
 standardGravity = 9.80665  # [m/s2]
@@ -117,10 +117,7 @@ def _numbersOf(name, number, line, words):
 
 
 def _pairs(source):
-	try:
-		pairs = np.asarray(source, dtype=float)
-	except (TypeError, ValueError):
-		pairs = np.empty(0)
+	pairs = numbersIn(source)
 	if pairs.ndim != 2 or pairs.shape[1] != 2:
 		raise TypeError(f'record: file = {brief(source)} must be a path, or pairs (time [s], value), as in zip(times, values) made a list')
 	finite = np.isfinite(pairs).all(axis=1)

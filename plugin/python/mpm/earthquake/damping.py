@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 from yade import wrapper
 
-from ..base.messages import brief, isNumber
+from ..base.messages import brief, isNumber, numbersIn
 from ..base.solver import solverOf
 from .records import energyFrequencies
 from .shaking import doubtOfVelocity
@@ -39,10 +39,7 @@ def rayleigh(damping, frequencies):
 
 
 def _numbers(name, value):
-	try:
-		values = np.atleast_1d(np.asarray(value, dtype=float))
-	except (TypeError, ValueError):
-		values = np.array([np.nan])
+	values = np.atleast_1d(numbersIn(value))
 	if values.ndim != 1 or not values.size or not np.isfinite(values).all(): raise ValueError(f'rayleigh: {name} = {brief(value)} must be finite numbers')
 	return values
 
@@ -62,10 +59,7 @@ def schemeDamping(frequencies, solver=None, step=None):
 	"""
 	solver = solverOf('schemeDamping', solver)
 	if not isinstance(solver, wrapper.MpmDynamicEngine): raise TypeError('schemeDamping: the solver must be a MpmDynamicEngine; steps without inertia have no frequencies')
-	try:
-		f = np.atleast_1d(np.asarray(frequencies, dtype=float))
-	except (TypeError, ValueError):
-		f = np.array([])
+	f = np.atleast_1d(numbersIn(frequencies))
 	if not f.size or f.ndim != 1 or not (np.isfinite(f) & (f > 0)).all(): raise ValueError(f'schemeDamping: frequencies = {brief(frequencies)} must be finite numbers > 0 [Hz]')
 	step = stepOf(solver) if step is None else step
 	if not isNumber(step) or not np.isfinite(step) or step <= 0: raise ValueError(f'schemeDamping: step = {brief(step)} must be a finite number > 0 [s]')

@@ -4,7 +4,7 @@ import numpy as np
 from yade.minieigenHP import Vector3
 from yade.wrapper import MpmGrid, MpmRefinement
 
-from ..base.messages import brief
+from ..base.messages import brief, numbersIn
 from .rigid import bodiesIn, cornersOf
 
 
@@ -33,10 +33,7 @@ def refinementsAt(positions, grid, halvings=1, way=None, margin=None):
 	if bodies: return [box for body in bodies for box in _around(body, grid, halvings, (0, 0, 0) if way is None else way, margin)]
 	for name, value in ('way', way), ('margin', margin):
 		if value is not None: raise ValueError(f'refinementsAt: {name} = {brief(value)} goes with bodies, and positions are points')
-	try:
-		places = np.asarray(positions, float)
-	except (TypeError, ValueError):
-		places = np.empty(0)
+	places = numbersIn(positions)
 	if places.ndim != 2 or places.shape[1] != 3 or not np.isfinite(places).all():
 		raise ValueError(f'refinementsAt: positions = {brief(positions)} must be an array (N, 3) of finite numbers [m], or bodies')
 	size, origin = grid.cellSize / 2**(halvings - 1), np.array(grid.origin)  # size and origin of the cells that are halved last

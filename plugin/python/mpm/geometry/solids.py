@@ -8,7 +8,7 @@ import numpy as np
 from yade import pack
 from yade.minieigenHP import Vector3
 
-from ..base.messages import brief, isNumber, pathOf, place
+from ..base.messages import brief, isNumber, numbersIn, pathOf, place
 from ..library import engine
 
 
@@ -37,10 +37,7 @@ def solid(fileName, scale=1., shift=(0, 0, 0)):
 
 
 def _shift(value):
-	try:
-		numbers = np.array([float(x) for x in value])
-	except (TypeError, ValueError):
-		numbers = np.empty(0)
+	numbers = numbersIn(value)
 	if numbers.shape != (3, ) or not np.isfinite(numbers).all(): raise TypeError(f'solid: shift = {brief(value)} must be three finite numbers')
 	return numbers
 

@@ -6,7 +6,7 @@ import numpy as np
 from yade import pack
 from yade.wrapper import MpmSurface
 
-from ..base.messages import brief, place
+from ..base.messages import brief, numbersIn, place
 from .outline import polygon
 from .regions import bounds, inside, requireRightWay
 
@@ -44,11 +44,8 @@ def surface(region, min=(-math.inf, ) * 3, max=(math.inf, ) * 3, dim=2, spacing=
 
 
 def _corner(name, point, missing, dim):
-	try:
-		numbers = np.array([float(x) for x in point])
-	except (TypeError, ValueError):
-		numbers = np.empty(0)
-	if len(numbers) not in (2, 3) or np.isnan(numbers).any(): raise TypeError(f'surface: {name} = {brief(point)} must be two or three numbers')
+	numbers = numbersIn(point)
+	if numbers.shape not in ((2, ), (3, )) or np.isnan(numbers).any(): raise TypeError(f'surface: {name} = {brief(point)} must be two or three numbers')
 	return np.append(numbers, missing)[:dim]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from yade import pack, utils
 from yade.minieigenHP import Vector3
 
-from ..base.messages import brief, isNumber, pathOf, place
+from ..base.messages import brief, isNumber, numbersIn, pathOf, place
 from .elevations import read
 
 
@@ -132,10 +132,7 @@ def heightsOf(who, name, given, low, high, spacing):
 		return Heights(_asked(who, name, given, low, steps, cells + 1), low, steps, f'the function {name}', who)
 	if isinstance(given, (np.ndarray, list, tuple)):
 		step = _spacing(who, spacing, f'{name} is an array')
-		try:
-			values = np.array(given, float)
-		except (TypeError, ValueError):
-			values = np.empty(0)
+		values = numbersIn(given).copy()
 		if values.ndim != 2 or np.min(values.shape) < 2: raise TypeError(f'{who}: {name} = {brief(given)} must be an array of heights, at least 2 by 2, with one row for each x')
 		if not np.isfinite(low).all(): raise ValueError(f'{who}: {name} is an array, which needs min, the position (x, y) of its first height')
 		return Heights(values, low, step, f'the array {name}', who)
@@ -235,9 +232,6 @@ class Heights:
 
 
 def _pair(who, name, value):
-	try:
-		numbers = np.array([float(x) for x in value])
-	except (TypeError, ValueError):
-		numbers = np.empty(0)
+	numbers = numbersIn(value)
 	if numbers.shape != (2, ) or np.isnan(numbers).any(): raise TypeError(f'{who}: {name} = {brief(value)} must be two numbers, x and y')
 	return numbers

@@ -2,7 +2,7 @@
 """Histories over frequency."""
 import numpy as np
 
-from ..base.messages import brief
+from ..base.messages import brief, numbersIn
 from ..library import engine
 
 _bytes = 2**26  # bytes of the exponentials that are in memory at once
@@ -12,10 +12,7 @@ def frequenciesOf(who, frequencies, time):
 	"""Frequencies that were given [Hz], or all that these times can tell of: from one over their span to half of one over their longest step."""
 	if len(time) < 3: raise ValueError(f'{who}: {len(time)} times are too few for a spectrum; run the scene first')
 	if frequencies is None: return np.arange(1, int(np.diff(time).size / 2 * np.diff(time).mean() / np.diff(time).max() + 1e-9) + 1) / (time[-1] - time[0])
-	try:
-		f = np.atleast_1d(np.asarray(frequencies, dtype=float))
-	except (TypeError, ValueError):
-		f = np.array([])
+	f = np.atleast_1d(numbersIn(frequencies))
 	highest = 0.5 / np.diff(time).max()
 	if not f.size or f.ndim != 1 or not (np.isfinite(f) & (f > 0)).all(): raise ValueError(f'{who}: frequencies = {brief(frequencies)} must be finite numbers > 0 [Hz]')
 	if (f > highest * (1 + 1e-9)).any(): raise ValueError(f'{who}: frequencies: {f.max():g} Hz is beyond {highest:g} Hz, half of one over the longest step of the histories')
