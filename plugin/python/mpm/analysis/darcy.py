@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Steady flow of water through soil that stands still, with a free surface."""
-import itertools
 import math
 
 import numpy as np
@@ -14,6 +13,7 @@ _dry = 1e-3  # conductivity of dry soil over that of wet soil
 _transition = 0.5  # depth of the zone between the two, half of it above the free surface [cells]
 _skin = 1e3  # conductance of the faces, over conductivity and cell size
 _mostSteps = 200
+_corners = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])  # nodes of a cell
 
 
 def seepage(levels, faces=(), solver=None, unitWeight=9810.):
@@ -66,10 +66,9 @@ class SteadySeepage:
 		xi = (np.array([x[0], x[1]]) - self._body.origin) / self._body.h
 		cell = np.floor(xi + 1e-9)
 		part = np.clip(xi - cell, 0, 1)
-		corners = np.array(list(itertools.product((0, 1), repeat=2)))
-		nodes = self._body.copies(np.array([xi]), (cell + corners).astype(int)[None])[0].tolist()
+		nodes = self._body.copies(np.array([xi]), (cell + _corners).astype(int)[None])[0].tolist()
 		values = (self._known.get(tuple(node), self._known.get((*node[:2], 0), 0.)) for node in nodes)
-		return sum(abs(1 - i - part[0]) * abs(1 - j - part[1]) * value for (i, j), value in zip(corners.tolist(), values))
+		return sum(abs(1 - i - part[0]) * abs(1 - j - part[1]) * value for (i, j), value in zip(_corners.tolist(), values))
 
 	def _freeSurface(self, p):
 		"""On each vertical line of the grid, from the highest node under pressure upwards."""
@@ -117,12 +116,23 @@ def _surface(name, given):
 	return np.stack([points[:-1], points[1:]], axis=1)
 
 
+def _pointsAlong(ends):
+	"""(point, length that it stands for, direction to the left) of two points of Gauss in each cell along a straight line between two ends, all counted in cells."""
+	start, way = ends[0], ends[1] - ends[0]
+	length = np.linalg.norm(way)
+	if not length > 0: return
+	lines = [(line - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 * length for line in range(math.floor(min(start[a], start[a] + way[a])), math.ceil(max(start[a], start[a] + way[a])) + 1)]
+	cuts = np.unique(np.clip([0, 1, *lines], 0, 1))
+	for first, last in zip(cuts, cuts[1:]):
+		for part in 0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3):
+			yield start + (first + part * (last - first)) * way, (last - first) * length / 2, np.array([-way[1], way[0]]) / length
+
+
 def _functions(xi):
 	"""Values (N, 4) and gradients (N, 4, 2) by cells of the functions of a cell, at points (N, 2) in it."""
 	value = np.stack([1 - xi, xi], axis=1)  # (N, 2, 2): end, axis
-	corners = list(itertools.product((0, 1), repeat=2))
-	values = np.stack([value[:, i, 0] * value[:, j, 1] for i, j in corners], axis=1)
-	slopes = np.stack([np.stack([(2 * i - 1) * value[:, j, 1], (2 * j - 1) * value[:, i, 0]], axis=1) for i, j in corners], axis=1)
+	values = np.stack([value[:, i, 0] * value[:, j, 1] for i, j in _corners], axis=1)
+	slopes = np.stack([np.stack([(2 * i - 1) * value[:, j, 1], (2 * j - 1) * value[:, i, 0]], axis=1) for i, j in _corners], axis=1)
 	return values, slopes
 
 
@@ -134,14 +144,14 @@ class _Body:
 		low, high = ((points['pos'][:, :2] + sign * points['halfSize'][:, :2] - self.origin) / self.h for sign in (-1, 1))
 		line = np.clip(np.round((low + high) / 2), low, high)
 		parts = []
-		for ends in itertools.product((0, 1), repeat=2):
+		for ends in _corners:
 			first = np.where(ends, line, low)
 			last = np.where(ends, high, line)
 			isThere = ((last - first) > 1e-7 * (high - low)).all(axis=1)
 			parts.append((((first + last) / 2)[isThere], (last - first).prod(axis=1)[isThere], kappa[isThere]))
 		middle, volume, self.kappa = (np.concatenate(column) for column in zip(*parts))
 		cell = np.floor(middle).astype(int)
-		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
+		corners = cell[:, None, :] + _corners
 		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
 		self.walls = [_Wall(number, beam, self) for number, beam in enumerate(beams)]
 		self.nodes, number = np.unique(self.copies(middle, corners).reshape(-1, 3), axis=0, return_inverse=True)
@@ -217,28 +227,17 @@ class _Wall:
 			if tuple(corners[tuple(n)].tolist()) in self.shared: copy[tuple(n)] = 0
 		return copy
 
-	def places(self):
-		"""(place, length, direction to the left) for two points between lines of the grid."""
-		for start, end in zip(self.line, self.line[1:]):
-			way, length = end - start, np.linalg.norm(end - start)
-			cuts = [(line - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 for line in range(math.floor(min(start[a], end[a])), math.ceil(max(start[a], end[a])) + 1)]
-			cuts = np.unique(np.clip([0, 1, *cuts], 0, 1))
-			for first, last in zip(cuts, cuts[1:]):
-				for part in (.5 - .5 / math.sqrt(3), .5 + .5 / math.sqrt(3)):
-					yield start + (first + part * (last - first)) * way, (last - first) * length / 2, np.array([-way[1], way[0]]) / length
-
 
 class _Leak:
 	"""Flow through a wall between soil on both of its sides: *permittivity* times the difference of heads."""
 
 	def __init__(self, body, wall):
-		corners = np.array(list(itertools.product((0, 1), repeat=2)))
 		nodes, values, self.conductance = [], [], []
-		for x, length, left in wall.places():
+		for x, length, left in (point for ends in zip(wall.line, wall.line[1:]) for point in _pointsAlong(ends)):
 			sides = [x + sign * 1e-6 * left for sign in (1, -1)]
 			cells = [np.floor(at).astype(int) for at in sides]
 			if any(tuple(cell.tolist()) not in body.cells for cell in cells): continue
-			found = [body.numbersOf(np.array([at]), (cell + corners)[None]) for at, cell in zip(sides, cells)]
+			found = [body.numbersOf(np.array([at]), (cell + _corners)[None]) for at, cell in zip(sides, cells)]
 			if any(node is None for node in found): continue
 			nodes.append(np.concatenate([node[0] for node in found]))
 			values.append(np.concatenate([sign * _functions(np.array([at - cell]))[0][0] for sign, at, cell in zip((1, -1), sides, cells)]))
@@ -250,33 +249,18 @@ class _Outlet:
 	"""A face, at points that are exact for what is linear in the cells. Below *level* there is the pressure of the water before it, above water may come out."""
 
 	def __init__(self, body, name, segments, level):
-		found = [place for segment in segments for place in self._places(body, *segment)]
-		self.x, self.length, inwards = (np.array(column) for column in zip(*found))
-		cells = [body.cellBehind(*at) for at in zip((self.x - body.origin) / body.h, inwards)]
+		found = [point for segment in segments for point in _pointsAlong((segment - body.origin) / body.h)]
+		x, length, inwards = (np.array(column) for column in zip(*found))
+		self.x, self.length = body.origin + body.h * x, body.h * length
+		cells = [body.cellBehind(*at) for at in zip(x, inwards)]
 		missing = [i for i, c in enumerate(cells) if c is None]
 		if missing: raise ValueError(f'seepage: the surface of {name} is not on the body at {place(self.x[missing[0]])}, which must be on the left of its points')
 		cell = np.array(cells)
-		self.values = _functions((self.x - body.origin) / body.h - cell)[0]
-		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
-		self.node = body.numbersOf((self.x - body.origin) / body.h + 1e-3 * inwards, corners)
+		self.values = _functions(x - cell)[0]
+		self.node = body.numbersOf(x + 1e-3 * inwards, cell[:, None, :] + _corners)
 		self.given = body.weight * np.maximum(0, level - self.x[:, 1])
 		self.mayEnter = self.x[:, 1] <= level + 1e-9 * body.h
 		self.skin = _skin / body.h * np.array([body.cells[tuple(c)] for c in cell.tolist()]) * self.length
-
-	@staticmethod
-	def _places(body, start, end):
-		"""(place, length that it stands for, direction into the body) for two points in each cell."""
-		way = end - start
-		length = np.linalg.norm(way)
-		if not length > 0: return
-		first, last = (np.floor((f(start, end) - body.origin) / body.h).astype(int) for f in (np.minimum, np.maximum))
-		lines = [(body.origin[a] + body.h * i - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 * length for i in range(first[a], last[a] + 1)]
-		cuts = np.unique(np.clip([0, 1, *lines], 0, 1))
-		inwards = np.array([-way[1], way[0]]) / length
-		for first, last in zip(cuts, cuts[1:]):
-			for part in (.5 - .5 / math.sqrt(3), .5 + .5 / math.sqrt(3)):
-				x = start + (first + part * (last - first)) * way
-				yield x, (last - first) * length / 2, inwards
 
 	def pressure(self, p):
 		return (self.values * p[self.node]).sum(axis=1)
