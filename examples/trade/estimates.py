@@ -1,20 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Compares what mpm.advise says of a scene with the run that follows: `examples/trade/estimates.py [--user]` adds results/estimates.csv to out/trade."""
-import argparse
 import os
 import sys
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
+from commands.trade import measure
 from fronts import judged
 from plans import Plan
-from sweep import Sweep
+from study import Study
 
-options = argparse.ArgumentParser(description=__doc__)
-options.add_argument('--out', default='out/trade', help='folder of the results (default %(default)s)')
-options.add_argument('--user', action='store_true', help='use build/overlay also as root (see scripts/setup --help)')
-options = options.parse_args()
+study = Study('trade', __doc__)
+study.parse(sys.argv[1:], timeLimit=600)
 
 names = ['scene', 'dim', 'cells', 'pointsPerCell', 'steps']
 scenes = [
@@ -25,11 +23,9 @@ scenes = [
 quantities = ['unknowns', 'fastest', 'usual', 'slowest', 'measuredTime', 'estimatedMemory', 'measuredMemory']
 settings = [dict(zip(names, [f"'{scene}'", *map(str, values)])) | dict(advise='True') for scene, *values in scenes]
 plan = Plan(script=os.path.join(here, 'scenes.py'), parameters=settings[0], together={}, quantities=quantities)
-sweep = Sweep('estimates', plan, options.out, 600, options.user)
-sweep.run(settings)
 within = 0
-for row in sweep.table.rows.values():
+for row in measure(study, 'estimates', plan, settings).rows.values():
 	ratio, inRange = judged(row)
-	within += .5 <= ratio <= 2
+	within += 0.5 <= ratio <= 2
 	print(*(row[name] for name in names), f"time {ratio:.2f} {'' if inRange else 'not '}in range, memory {float(row['estimatedMemory']) / max(1, float(row['measuredMemory'])):.2f}")
 print(f'time within a factor of 2: {within} of {len(scenes)}')

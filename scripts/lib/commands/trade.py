@@ -16,8 +16,6 @@ import shutil
 import sys
 
 import studies
-from results import makeFolder
-from sweep import Sweep
 from worker import root
 
 examples = os.path.join(root, 'examples', 'trade')
@@ -56,10 +54,22 @@ def main(study, arguments):
 	study.option('--check', type=pairs, metavar='NAME=V,NAME=V', help='parameters of a coarser reference; the difference is the uncertainty')
 	options = study.parse(arguments, timeLimit=600, limited='for one run [s]', quick='a few coarse runs of the scenes of examples/trade')
 	chosen = ofOnesOwn(study, options) if len(options.scene) == 1 and options.scene[0].endswith('.py') else ofExamples(study, options)
-	makeFolder(options.out)
-	for name, plan in chosen.items(): Sweep(name, plan, options.out, options.time_limit, options.user).run(settings(plan))
+	for name, plan in chosen.items(): measure(study, name, plan, settings(plan))
 	import page
 	study.write(page.tables(options.out, chosen, options.out))
+
+
+def measure(study, name, plan, runs):
+	"""Runs of a plan, each in a process of its own but for those that are in its table; the table."""
+	names = plan.errors + plan.quantities
+	table = study.table(list(plan.parameters), ['wall', 'cpu', 'memory', 'solves', *names, 'failure'], name)
+	for threads in dict.fromkeys(setting.get('threads', '1') for setting in runs):
+		these = [setting for setting in runs if setting.get('threads', '1') == threads]
+		given = lambda setting: dict(script=plan.script, parameters={name: value for name, value in setting.items() if name != 'threads'}, names=names)
+		cases = [(tuple(setting.values()), 'measured.measure', given(setting)) for setting in these]
+		print(f'{name}, {threads} threads: ', end='')
+		study.fill(table, cases, study.options.time_limit, ['cpu', 'failure'], reason='failure', missing='nan', threads=threads, areAlone=True)
+	return table
 
 
 def ofOnesOwn(study, options):

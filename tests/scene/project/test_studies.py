@@ -110,7 +110,7 @@ if table.cells == 8 and table.steps == 2: raise RuntimeError('on purpose')
 stress, exactly = columnError() + 1, columnError()
 '''.format(scenes=str(root / 'tests' / 'scene')))
 	arguments = 'trade', script, '--vary', 'cells=4,8', '--vary', 'steps=2,10', '--quantity', 'stress', '--reference', 'cells=16,steps=10', '--out', tmp_path / 'out'
-	assert 'own: 5 of 5 runs to do' in study(*arguments)
+	assert 'own, 1 threads: 5 cases to run' in study(*arguments)
 	results = {(row['cells'], row['steps']): row for row in rows(tmp_path / 'out/results/own.csv')}
 	assert 'on purpose' in results['8', '2']['failure']
 	assert float(results['16', '10']['stress']) < float(results['8', '10']['stress']) < float(results['4', '10']['stress'])
@@ -119,7 +119,7 @@ stress, exactly = columnError() + 1, columnError()
 	ended = [row for row in results.values() if not row['failure'] and row['cells'] != '16'] # all of them within 5 % of the reference
 	cheapest = min(ended, key=lambda row: float(row['cpu'])) # whichever it is: they take milliseconds
 	assert f"| cells {cheapest['cells']}, steps {cheapest['steps']}: {float(cheapest['cpu']):.2f} s" in page and (tmp_path / 'out/own.png').stat().st_size > 10000
-	assert 'own: 0 of 5 runs to do' in study(*arguments)
+	assert 'own, 1 threads: 0 cases to run' in study(*arguments)
 
 
 def test_trade_where_nothing_can_be_compared(study, tmp_path):
