@@ -17,6 +17,16 @@ def seconds(text):
 	return limit
 
 
+def seeds(text):
+	"""Type of an option on the command line: numbers of scenes that are drawn at random, as 0:100 or 3,17."""
+	try:
+		found = list(range(*map(int, text.split(':')))) if ':' in text else [int(number) for number in text.split(',')]
+	except (TypeError, ValueError):
+		found = []
+	if not found or min(found) < 0: raise argparse.ArgumentTypeError(f'{text} is not admitted: give numbers >= 0, as FROM:TO or 3,17,45')
+	return found
+
+
 def makeFolder(out):
 	"""Make the folder <out>/results before anything is run; the script ends with the reason if nothing can be written there."""
 	folder = os.path.join(out, 'results')

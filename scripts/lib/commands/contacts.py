@@ -19,14 +19,14 @@ import os
 from contacts.plan import cases, derived
 from contacts.tables import bound, heads, misses, rows
 from pages import replace
-from results import seconds
+from results import seconds, seeds
 
 
 def main(study, arguments):
 	study.option('case', nargs='*', metavar='CASE', help='name or pattern; all if none is given')
 	study.option('--short', action='store_true', help='the short form of each')
 	study.option('--list', action='store_true', help='say what there is, and run nothing')
-	study.option('--seeds', metavar='FROM:TO', help='of cases with scenes drawn at random: these instead of their own')
+	study.option('--seeds', type=seeds, metavar='FROM:TO', help='of cases with scenes drawn at random: these instead of their own')
 	study.option('--time-limit', type=seconds, metavar='S', help='processor time for one case [s] instead of its own; it ends with what it has')
 	options = study.parse(arguments, processes=1)
 	for pattern in options.case:
@@ -52,5 +52,5 @@ def main(study, arguments):
 
 def argumentsOf(case, options):
 	arguments = case.arguments | (case.short if options.short else {})
-	if options.seeds and 'seeds' in arguments: arguments['seeds'] = [int(text) for text in options.seeds.split(':')]
+	if options.seeds and 'seeds' in arguments: arguments['seeds'] = [options.seeds[0], options.seeds[-1] + 1]
 	return arguments | (dict(seconds=options.time_limit) if options.time_limit else {})

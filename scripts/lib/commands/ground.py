@@ -13,12 +13,13 @@ analysis. All scenes are in results/ground.csv, and are not run again with the s
 from collections import Counter
 
 from ground.tables import findings, isBad, kinds
+from results import seeds
 
 columns = ['scene', 'how', 'part', 'why', 'wrong', 'share', 'solves', 'cuts', 'seconds']
 
 
 def main(study, arguments):
-	study.option('--seeds', metavar='FROM:TO', default='0:1000', help='which scenes, also as a list 3,17,45 (default %(default)s)')
+	study.option('--seeds', type=seeds, metavar='FROM:TO', default='0:1000', help='which scenes, also as a list 3,17,45 (default %(default)s)')
 	study.option('--strict', action='store_true', help='F-bar in statics, and a ghost stabilisation for soil that yields, which carries at most 3 percent of the work (MpmGhost.workTolerance)')
 	study.option('--friction', action='store_true', help='only static scenes in the plane of Mohr-Coulomb or Drucker-Prager soil')
 	study.option('--where', choices=['boundary', 'aggregates'], help='MpmGhost.where in statics, if not its own')
@@ -30,13 +31,11 @@ def main(study, arguments):
 	flags = {'--strict': options.strict, '--friction': options.friction, f'--divide {options.divide}': options.divide > 1, f'--time-limit {options.time_limit:g}': options.time_limit != 20}
 	settings = ' '.join([*(flag for flag, isGiven in flags.items() if isGiven), *(f'--{name} {value}' for name, value in ghost.items())])
 	table = study.table(['settings', 'seed'], columns)
-	seeds = range(*map(int, options.seeds.split(':'))) if ':' in options.seeds else map(int, options.seeds.split(','))
 	given = dict(seconds=options.time_limit, divide=options.divide, strict=options.strict, ghost=ghost, friction=options.friction)
-	study.fill(table, [((settings, seed), 'ground.runs.judged', dict(given, seed=seed)) for seed in seeds], 6 * options.time_limit + 60, ['how', 'wrong', 'why'])
+	study.fill(table, [((settings, seed), 'ground.runs.judged', dict(given, seed=seed)) for seed in options.seeds], 6 * options.time_limit + 60, ['how', 'wrong', 'why'])
 	rows = [row | dict(how=row['how'] or 'stops') for row in table.rows.values() if row['settings'] == settings]
 	bad = [row for row in rows if isBad(row)]
 	counts = ', '.join(f'{number} {how}' for how, number in Counter(row['how'] for row in rows).items())
 	summary = f"{len(rows)} scenes, {sum(int(float(row['solves'] or 0)) for row in rows)} solves: {counts}; {len(bad)} stop or are wrong."
-	command = ' '.join(['scripts/ground --seeds', options.seeds, settings]).strip()
-	study.write([('kinds.csv', 'Outcomes by kind of scene', kinds(rows)), ('findings.csv', 'Scenes that stop or are wrong', findings(rows))], summary, f'`{command}`, {study.provenance}')
+	study.write([('kinds.csv', 'Outcomes by kind of scene', kinds(rows)), ('findings.csv', 'Scenes that stop or are wrong', findings(rows))], summary)
 	return int(len(bad) > 0.01 * len(rows))

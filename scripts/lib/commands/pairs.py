@@ -25,25 +25,25 @@ from pairs.features import Plan, allPairs, features, ordered, refusals, refused
 from pairs.kinds import kinds
 from pairs.scene import Scene
 from pairs.view import View
+from results import seeds
 
 fine = 'right', 'refused', 'stops'
 
 
 def main(study, arguments):
 	study.option('--times', type=int, default=20, metavar='N', help='how often each pair is tried (default %(default)s)')
-	study.option('--seeds', metavar='FROM:TO', help='these scenes of the list only')
+	study.option('--seeds', type=seeds, metavar='FROM:TO', help='these scenes of the list only')
 	study.option('--only', type=int, metavar='SEED', help='this scene only')
 	study.option('--kind', choices=[*kinds, 'all'], help='scenes of this kind instead of features in pairs')
 	study.option('--script', metavar='FILE', help='with --only: write the scene as a script for YADE instead of checking it')
 	options = study.parse(arguments, timeLimit=120, limited='for one scene [s]', processes=2)
 	if options.kind == 'all' and options.only is not None: study.fail('--only goes with one kind')
 	plan = Plan().until(options.times) if not options.kind else range(100)
-	ends = 0, len(plan)
-	seeds = [options.only] if options.only is not None else range(*(int(text) if text else end for text, end in zip(options.seeds.split(':'), ends))) if options.seeds else range(*ends)
-	if not options.kind and any(seed not in range(len(plan)) for seed in seeds): study.fail(f'there are scenes 0 to {len(plan) - 1}')
+	chosen = [options.only] if options.only is not None else options.seeds or range(len(plan))
+	if not options.kind and any(seed not in range(len(plan)) for seed in chosen): study.fail(f'there are scenes 0 to {len(plan) - 1}')
 	if options.script: return script(study, options, plan)
 	names = list(kinds) if options.kind == 'all' else [options.kind] if options.kind else ['']
-	scenes = [(name, seed, name or ' '.join(plan[seed])) for seed in seeds for name in names]
+	scenes = [(name, seed, name or ' '.join(plan[seed])) for seed in chosen for name in names]
 	table = study.table(['kind', 'seed', 'scene'], ['outcome', 'findings'])
 	table.rows = {key: row for key, row in table.rows.items() if row['outcome'] in fine and row['seed'] != str(options.only)}
 	cases = [(key, 'pairs.checks.checkKind', dict(name=key[0], seed=key[1])) if key[0] else (key, 'pairs.checks.check', dict(chosen=plan[key[1]], seed=key[1])) for key in scenes]

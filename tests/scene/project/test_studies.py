@@ -61,6 +61,7 @@ def test_what_cannot_be_run_is_refused_in_a_sentence(study, tmp_path):
 	        ('extremes', 'slopeFactor', '--quick'): 'axis slopeFactor has no quick values',
 	        ('extremes', 'points', '--quick', '--out', 'file'): 'nothing can be written to the folder file/results (--out): Not a directory',
 	        ('extremes', 'points', '--time-limit', 'inf'): 'inf is not a time > 0',
+	        ('ground', '--seeds', '3:x'): '3:x is not admitted: give numbers >= 0, as FROM:TO or 3,17,45',
 	        (*own[:2], *vary): '--quantity or --error',
 	        own: 'name what is to be varied',
 	        (*own, *vary, *vary): 'given twice',
