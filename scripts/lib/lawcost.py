@@ -64,4 +64,8 @@ def cost(law):
 		except RuntimeError:
 			why = f'ended after {steps} steps'
 	end = os.times()
-	return dict(microseconds=1e6 * (end.user + end.system - begin.user - begin.system) / max(iterations, 1) / len(O.bodies), iterations=iterations, why=why)
+	return dict(law=law, microseconds=1e6 * (end.user + end.system - begin.user - begin.system) / max(iterations, 1) / len(O.bodies), iterations=iterations, why=why)
+
+
+def costs():
+	return [cost(law) for law in laws]
