@@ -148,7 +148,7 @@ CHANGE = """## What to change
 def write(folder):
 	cases, found = judged(folder), rows(folder, 'stresses')
 	if cases or found: picture(cases, found, os.path.join(folder, 'discretisation.png'))
-	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), studies.markdown(counts(cases)), f'\n{ofStresses(found)}\n' if found else '', CHANGE])
+	pages.write(folder, [FINDINGS, studies.markdown(counts(cases)), f'\n{ofStresses(found)}\n' if found else '', CHANGE])
 
 
 def tables(folder):

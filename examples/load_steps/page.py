@@ -105,7 +105,7 @@ CHANGE = """## What to change
 def write(folder):
 	found = runs(folder)
 	picture(found, os.path.join(folder, 'load_steps.png'))
-	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), studies.markdown(verdict(found)), '', CHANGE])
+	pages.write(folder, [FINDINGS, studies.markdown(verdict(found)), '', CHANGE])
 
 
 def tables(folder):
