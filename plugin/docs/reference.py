@@ -10,7 +10,7 @@ from yade import mpm, wrapper
 folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
-        'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmGhost', 'MpmNewton'],
+        'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmAdaptation', 'MpmGhost', 'MpmNewton'],
         'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmFreeField', 'MpmBaseMotion', 'MpmTraction', 'MpmReinforcement', 'MpmBeam', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmBodyContact', 'MpmBody', 'MpmCondition'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmHardeningSoilMat', 'MpmNorSandMat', 'MpmUserMat', 'MpmFrictionalMat', 'MpmMaterial', 'MpmVanGenuchten', 'MpmGardner', 'MpmBrooksCorey', 'MpmRetentionTable', 'MpmRetention'],
         'Material points': ['MpmPoint', 'MpmState'],

@@ -25,7 +25,7 @@ topics = [
         ('Waves and earthquakes', ('shaking', 'inertia', 'freefield', 'record', 'waves', 'spectr', 'MpmDynamic', 'moving'), ['MpmDynamicEngine', 'MpmFreeField', 'MpmAbsorbingBoundary', 'MpmBaseMotion']),
         ('Materials and laws', ('materials', 'laborator', 'calibrat'), ['MpmMaterial', 'MpmFrictionalMat', 'MpmUserMat']),
         ('Several processes', ('parallel', 'petsc', 'processes', 'distribut'), []),
-        ('Grid and points', ('/grid', 'points', 'filling', 'splitting', 'columns', 'assign'), ['MpmGrid', 'MpmRefinement', 'MpmState']),
+        ('Grid and points', ('/grid', 'points', 'filling', 'splitting', 'columns', 'assign'), ['MpmGrid', 'MpmRefinement', 'MpmAdaptation', 'MpmState']),
         ('Files, pictures and tables', ('output', 'plot', 'view', 'movie', 'page', 'table', 'paraview', 'saving', 'histor', 'collect', 'note'), ['MpmVtkRecorder']),
         ('The YADE that it runs in', ('yade_api', 'loading'), []),
         ('Functions of yade.mpm', ('python',), []),

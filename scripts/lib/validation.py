@@ -35,6 +35,7 @@ runs = {
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
+        'adaptive': ['adaptive.py'],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],
@@ -54,7 +55,7 @@ groups = {
         'Earth pressure': ['earth_pressure'],
         'Walls and tunnels in the ground': ['sheet_pile', 'lined_tunnel'],
         'Water and stages': ['water', 'consolidation', 'rain', 'embankment'],
-        'Contact and penetration': ['penetration', 'grains_on_soil', 'meeting', 'free_bodies'],
+        'Contact and penetration': ['penetration', 'adaptive', 'grains_on_soil', 'meeting', 'free_bodies'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
 }

@@ -46,7 +46,7 @@ template <int Dim> struct Grid {
 	/// A key has the coordinates of a node or cell, its level, and above these the layer: bodies that meet have
 	/// nodes and cells of their own, each in a layer. Neighbours by steps between keys are in the same one.
 	static constexpr int keyBits   = Dim == 2 ? 28 : 19;
-	static constexpr int mostLevel = 3, levelBits = 2;
+	static constexpr int levelBits = Dim == 2 ? 3 : 2, mostLevel = (1 << levelBits) - 1;
 	static constexpr int mostLayer = (1 << (64 - keyBits * Dim - levelBits)) - 1;
 	/// Integer coordinates must stay below this limit in magnitude; two cells of it, of the largest, are kept free
 	/// for neighbours.

@@ -20,7 +20,7 @@ template <int Dim> struct RefinedBox {
 /// The cells that are not halved are the leaves of a tree; a leaf of level l is 2^l times as large as the smallest
 /// cells, those of level 0. All cells that overlap a box are halved. Around them cells are halved as often as it takes
 /// for leaves that touch, be it in a corner, to differ by one level at most: around a block of cells these are blocks
-/// again, so that no cell needs to be stored.
+/// again, so that of large blocks no cell needs to be stored. Small ones, of which there may be many, are kept as cells.
 template <int Dim> class Refinement {
 public:
 	/// `grid` has the size of the largest cells. There is at least one box, of at least one halving and at most
@@ -32,9 +32,9 @@ public:
 	/// True if a cell is halved; cells beyond the leaves are not.
 	bool isHalved(const Index<Dim>& cell, int level) const
 	{
-		for (const Block& block : halved_[level])
+		for (const Block& block : blocks_[level])
 			if ((block.lower.array() <= cell.array()).all() && (cell.array() <= block.upper.array()).all()) return true;
-		return false;
+		return !cells_[level].empty() && find(cells_[level], Grid<Dim>::key(cell)) >= 0;
 	}
 
 	/// The leaf that contains a cell, which may be the cell itself; it must not be halved.
@@ -77,9 +77,12 @@ private:
 		Index<Dim> lower, upper;
 	};
 	void halve(Block block, int level);
+	void keep(const Block& block, int level);
+	bool overlapsCells(const Vec<Dim>& low, const Vec<Dim>& high, int level) const;
 
 	int                                                      largest_ = 0;
-	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> halved_; // halved blocks by level
+	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> blocks_; // halved blocks by level
+	std::array<std::vector<Key>, Grid<Dim>::mostLevel + 1>   cells_;  // other halved cells by level, sorted
 };
 
 /// Half of the cell that a position lies in [m]: domains of points there are no larger.

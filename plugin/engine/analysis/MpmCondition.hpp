@@ -110,6 +110,10 @@ public:
 	virtual string                                       idleness(const string& /*name*/, bool /*reaches*/) const { return ""; }
 	virtual bool                                         moves() const { return false; }
 
+	// Positions, no farther apart than the spacing, where its action on the soil is singular at the begin or at the
+	// end of the coming step: there MpmGrid.adaptation halves cells.
+	virtual vector<Vector3r> edges(const Analysis&, const Scene&, Real /*spacing*/) const { return {}; }
+
 	// Positions at which it acts on the soil, which must not be dug out there; true if it may act along an axis.
 	virtual vector<Vector3r> places() const { return {}; }
 	virtual bool             actsAlong(int /*axis*/) const { return true; }

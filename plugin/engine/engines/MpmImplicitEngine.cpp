@@ -10,6 +10,7 @@
 #include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/Threads.hpp"
+#include "engine/engines/adaptation.hpp"
 #include "engine/engines/build_model.hpp"
 #include "engine/engines/moving.hpp"
 #include "engine/engines/step_errors.hpp"
@@ -157,6 +158,7 @@ bool MpmImplicitEngine::isTimeForSlips(Real begin)
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
+	adaptCells();
 	if (hasQuestions()) askFunctions<Dim>(agreement);
 	Job<Dim> job      = prepare<Dim>(agreement);
 	double   agreeing = 0;
@@ -183,6 +185,16 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(warnings.empty() ? "" : warnings.front());
+}
+
+// Cells follow what moves, before anything is asked about them.
+void MpmImplicitEngine::adaptCells()
+{
+	const ValueLock lock;
+	if (!grid || (grid->adaptation.empty() && grid->adapted.empty())) return;
+	requireRunnable(*this);
+	updateMaterialPoints(points, *scene, mask);
+	warn(plausibility.once("maxUnknowns", adapt(*this, *scene, points)));
 }
 
 bool MpmImplicitEngine::hasQuestions() const

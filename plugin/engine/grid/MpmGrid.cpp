@@ -51,21 +51,37 @@ void MpmGrid::requireAxis() const
 	throw std::invalid_argument("MpmGrid.axisymmetric = True: " + text.str() + ".");
 }
 
+void MpmGrid::requireLevels(const string& name, int halvings) const
+{
+	if (dim == 2 || halvings <= gimpm::Grid<3>::mostLevel) return;
+	throw std::invalid_argument(
+	        name + ".halvings = " + std::to_string(halvings) + " is not admitted with dim=3: expected 1 to " + std::to_string(gimpm::Grid<3>::mostLevel)
+	        + ". Make cellSize smaller instead.");
+}
+
 void MpmGrid::requireAdmissible() const
 {
 	Exposed::requireAdmissible();
 	for (size_t r = 0; r < refinements.size(); ++r) {
 		if (!refinements[r]) throw std::invalid_argument("MpmGrid.refinements[" + std::to_string(r) + "] = None: expected an MpmRefinement.");
 		refinements[r]->requireAdmissible();
+		requireLevels("MpmGrid.refinements[" + std::to_string(r) + "]", refinements[r]->halvings);
 	}
 	for (size_t b = 0; b < bodies.size(); ++b) {
 		if (!bodies[b]) throw std::invalid_argument("MpmGrid.bodies[" + std::to_string(b) + "] = None: expected an MpmBody.");
 		bodies[b]->requireAdmissible();
 		if (bodyNamed(bodies[b]->name) != int(b)) throw std::invalid_argument("MpmGrid.bodies: two of them are called '" + bodies[b]->name + "'.");
 	}
-	if (refinements.empty() || period.isZero(0)) return;
+	for (size_t a = 0; a < adaptation.size(); ++a) {
+		const string name = "MpmGrid.adaptation[" + std::to_string(a) + "]";
+		if (!adaptation[a]) throw std::invalid_argument(name + " = None: expected an MpmAdaptation.");
+		adaptation[a]->requireAdmissible();
+		requireLevels(name, adaptation[a]->halvings);
+	}
+	if (hasEqualCells() || period.isZero(0)) return;
 	std::ostringstream text;
-	text << "MpmGrid.refinements: a grid with period = (" << period.transpose() << ") cannot have cells of several sizes; leave one of the two out.";
+	text << "MpmGrid." << (refinements.empty() ? "adaptation" : "refinements") << ": a grid with period = (" << period.transpose()
+	     << ") cannot have cells of several sizes; leave one of the two out.";
 	throw std::invalid_argument(text.str());
 }
 
@@ -79,8 +95,9 @@ int MpmGrid::bodyNamed(const string& name) const
 template <int Dim> void MpmGrid::refine(gimpm::Grid<Dim>& grid) const
 {
 	vector<gimpm::RefinedBox<Dim>> boxes;
-	for (const auto& box : refinements)
-		boxes.push_back({ box->min.head<Dim>(), box->max.head<Dim>(), box->halvings });
+	for (const auto* list : { &refinements, &adapted })
+		for (const auto& box : *list)
+			boxes.push_back({ box->min.template head<Dim>(), box->max.template head<Dim>(), box->halvings });
 	grid.refinement = std::make_shared<gimpm::Refinement<Dim>>(boxes, grid);
 	grid.cellSize /= 1 << grid.refinement->largest();
 }
@@ -89,7 +106,7 @@ template <int Dim> gimpm::Grid<Dim> MpmGrid::lattice() const
 {
 	requireAxis();
 	gimpm::Grid<Dim> grid { cellSize, origin.head<Dim>(), periodInCells().head<Dim>(), axisymmetric, nullptr };
-	if (!refinements.empty()) refine(grid);
+	if (!refinements.empty() || !adapted.empty()) refine(grid);
 	return grid;
 }
 template gimpm::Grid<2> MpmGrid::lattice() const;

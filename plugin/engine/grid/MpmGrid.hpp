@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/grid/refinement.hpp"
+#include "engine/grid/MpmAdaptation.hpp"
 #include "engine/grid/MpmBody.hpp"
 #include "engine/grid/MpmRefinement.hpp"
 
@@ -15,6 +16,9 @@ public:
 	bool     axisymmetric = false;
 
 	vector<shared_ptr<MpmRefinement>> refinements;
+	vector<shared_ptr<MpmAdaptation>> adaptation;
+	// Boxes of the last step, which the engine makes for the adaptation.
+	vector<shared_ptr<MpmRefinement>> adapted;
 	vector<shared_ptr<MpmBody>>       bodies;
 
 	YADE_API_NAME(MpmGrid)
@@ -39,9 +43,18 @@ public:
 		  "Bodies of revolution about the grid line x = 0, with dim=2. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
 		v("refinements", &MpmGrid::refinements, 0,
 		  "Boxes (MpmRefinement) in which cells are halved; empty, the default: all are equal. Read as a tuple, so assign a new one to change it, also between steps.");
+		v("adaptation", &MpmGrid::adaptation, 0,
+		  "Rules (MpmAdaptation) by which cells are halved anew in each step; empty, the default: only *refinements* halve cells.");
+		v("adapted", &MpmGrid::adapted, readonly, "Boxes (MpmRefinement) in which *adaptation* has halved cells in the last step.");
 		v("bodies", &MpmGrid::bodies, 0,
 		  "Bodies of points with a name (MpmBody), in the order in which mpm.fill(..., body=...) has named them; empty, the default: none has one.");
 	}
+
+	// True if all cells are of one size.
+	bool hasEqualCells() const { return refinements.empty() && adaptation.empty(); }
+
+	// Name of what makes them differ, for messages.
+	string severalSizes() const { return string("MpmGrid.") + (refinements.empty() ? "adaptation" : "refinements") + ", cells of several sizes,"; }
 
 	// The place of a body of this name among the bodies, or -1.
 	int bodyNamed(const string& name) const;
@@ -56,6 +69,7 @@ public:
 private:
 	Vector3i periodInCells() const;
 	void     requireAxis() const;
+	void     requireLevels(const string& name, int halvings) const;
 
 	template <int Dim> void refine(gimpm::Grid<Dim>&) const;
 };

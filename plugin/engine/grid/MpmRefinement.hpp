@@ -23,8 +23,8 @@ public:
 	{
 		v("min", &MpmRefinement::min, 0, "Lower corner of the box [m]; -inf, the default, where it has no limit.", notNaN);
 		v("max", &MpmRefinement::max, 0, "Upper corner of the box [m]; inf, the default, where it has no limit.", notNaN);
-		v("halvings", &MpmRefinement::halvings, 0, "Number of times that cells are halved, 1 to 3: *MpmGrid.cellSize* / 2, / 4 or / 8.",
-		  oneOf(1, 2, 3));
+		v("halvings", &MpmRefinement::halvings, 0, "Number of times that cells are halved, 1 to 5, with dim=3 to 3; once: *MpmGrid.cellSize* / 2.",
+		  oneOf(1, 2, 3, 4, 5));
 	}
 
 	// Corners that are swapped in the constructor.

@@ -109,7 +109,7 @@ static void requireNoDecomposition(const Scene& scene)
 // Refuses features that have not been shown to be right there.
 static void requireEqualCells(const Analysis& engine)
 {
-	if (!engine.grid || engine.grid->refinements.empty()) return;
+	if (!engine.grid || engine.grid->hasEqualCells()) return;
 	string what;
 	if (engine.isDynamic()) what = engine.className() + ", as inertia";
 	else if (engine.newton->linearSolver == "amg")
@@ -119,7 +119,7 @@ static void requireEqualCells(const Analysis& engine)
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsEqualCells(listed.name()); !own.empty()) what = own;
 	if (!what.empty())
-		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
+		throw std::invalid_argument(engine.grid->severalSizes() + " cannot go with " + what + " yet; leave one of the two out.");
 }
 
 // Refuses features that have not been shown to be right with contact between bodies of points.
@@ -130,8 +130,8 @@ static void requireOneBody(const Analysis& engine)
 		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
 	if (meets.empty()) return;
 	if (engine.grid && !engine.grid->period.isZero(0)) what = "MpmGrid.period, a grid that repeats itself";
-	else if (engine.grid && !engine.grid->refinements.empty())
-		what = "MpmGrid.refinements, cells of several sizes";
+	else if (engine.grid && !engine.grid->hasEqualCells())
+		what = engine.grid->severalSizes();
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsOneBody(listed.name()); !own.empty()) what = own;
 	if (!what.empty()) throw std::invalid_argument(meets + " cannot go with " + what + " yet; leave one of the two out.");
@@ -159,8 +159,8 @@ static void requireNonlocal(const Analysis& engine)
 	if (engine.isExplicit()) what = "scheme = 'explicit'";
 	else if (processes()->size() > 1)
 		what = "several processes";
-	else if (engine.grid && !engine.grid->refinements.empty())
-		what = "MpmGrid.refinements, cells of several sizes";
+	else if (engine.grid && !engine.grid->hasEqualCells())
+		what = engine.grid->severalSizes();
 	else if (engine.grid && engine.grid->axisymmetric)
 		what = "MpmGrid.axisymmetric";
 	const string length = engine.className() + ".nonlocalLength = " + std::to_string(engine.nonlocalLength);

@@ -2,6 +2,7 @@
 #include "engine/output/report.hpp"
 #include "core/grid/coverage.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/grid/cells_by_size.hpp"
 #include "engine/messages/failures.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/value_lock.hpp"
@@ -36,6 +37,14 @@ namespace {
 		return gimpm::coverage<Dim>(centres, halfLengths).mean;
 	}
 
+	py::object cellsOf(const Analysis& engine)
+	{
+		py::dict cells;
+		for (const auto& [size, number] : cellsBySize(*engine.grid, materialPoints(*engine.ownScene(), engine.mask)))
+			cells[size] = number;
+		return cells;
+	}
+
 	string axisOf(const Analysis& engine) { return engine.last.worst.axis < 0 ? string() : string(1, "xyz"[engine.last.worst.axis]); }
 
 	using E          = const Analysis&;
@@ -56,6 +65,7 @@ namespace {
 		  "'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.",
 		  [](E e) { return py::object(secondsByPhase(e)); } },
 		{ "points", "Material points in the run.", [](E e) { return py::object(e.pointsOfRun); } },
+		{ "cells", "Cells in which middles of points lie, by edge length [m], a dict. Of the points of this process.", cellsOf },
 		{ "nodes", "Grid nodes of the last load step that was tried.", [](E e) { return py::object(e.last.nodes); } },
 		{ "cgFailure", "Why an iterative solve of it was left to the direct solver, or multigrid was not set up; empty if neither was so.",
 		  [](E e) { return py::object(e.last.conjugateGradients.reason); } },

@@ -78,6 +78,30 @@ namespace {
 		EXPECT_EQ(count[2], int(std::pow(6, Dim) - std::pow(3, Dim)));
 	}
 
+	/// Small blocks are kept as cells, large ones as such.
+	TYPED_TEST(RefinementTest, ManySmallBoxesHalveAsTheirUnionDoes)
+	{
+		constexpr int                Dim  = TypeParam::value;
+		const int                    size = Dim == 2 ? 9 : 5;
+		std::vector<RefinedBox<Dim>> cells;
+		forIndices<Dim>(Index<Dim>::Zero(), Index<Dim>::Constant(size), [&](const Index<Dim>& i) {
+			const Vec<Dim> middle = i.template cast<double>() / 4 + Vec<Dim>::Constant(2.125);
+			cells.push_back({ middle, middle, 3 });
+		});
+		const auto many = refinedGrid<Dim>(cells);
+		const auto one  = refinedGrid<Dim>({ { Vec<Dim>::Constant(2.125), Vec<Dim>::Constant(2.125 + (size - 1) / 4.), 3 } });
+		forIndices<Dim>(Index<Dim>::Zero(), Index<Dim>::Constant(8 * (size / 4 + 4)), [&](const Index<Dim>& i) {
+			ASSERT_EQ(many.refinement->leafOf(Grid<Dim>::key(i)), one.refinement->leafOf(Grid<Dim>::key(i))) << i.transpose();
+		});
+		Random random(3);
+		for (int k = 0; k < 2000; ++k) {
+			const Vec<Dim> x    = Vec<Dim>::NullaryExpr([&]() { return random.in(0, 8. * (size / 4 + 4)); });
+			const Vec<Dim> half = Vec<Dim>::NullaryExpr([&]() { return k % 2 ? random.in(0, 4) : double(random.integer(0, 4)); });
+			const Vec<Dim> low  = k % 3 ? x : Vec<Dim>(x.array().floor());
+			ASSERT_EQ(many.refinement->levelIn(low - half, low + half), one.refinement->levelIn(low - half, low + half));
+		}
+	}
+
 	TYPED_TEST(RefinementTest, ABoxMayBeUnbounded)
 	{
 		constexpr int Dim = TypeParam::value;

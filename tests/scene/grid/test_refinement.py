@@ -220,7 +220,7 @@ for wrong, parts in (([(0, 0)], 'positions'), ([(0, 0, np.nan)], 'positions'), (
 	try: mpm.refinementsAt(wrong, grid)
 	except ValueError as error: assert parts in str(error), error
 	else: raise AssertionError(wrong)
-for arguments in (dict(grid=grid, halvings=4), dict(grid=1)):
+for arguments in (dict(grid=grid, halvings=6), dict(grid=1)):
 	try: mpm.refinementsAt([(0, 0, 0)], **arguments)
 	except (ValueError, TypeError) as error: assert 'halvings' in str(error) or 'grid' in str(error), error
 	else: raise AssertionError(arguments)

@@ -132,7 +132,11 @@ outOfRange = {
         'MpmGrid.refinements': None,
         'MpmRefinement.min': None,
         'MpmRefinement.max': None,
-        'MpmRefinement.halvings': ['0', '4'],
+        'MpmRefinement.halvings': ['0', '6'],
+        'MpmGrid.adaptation': None,
+        'MpmAdaptation.halvings': ['0', '6'],
+        'MpmAdaptation.where': ['"edges"'],
+        'MpmAdaptation.maxUnknowns': ['0.', '-1.', 'nan'],
         'MpmGhost.factor': ['-1e-2'],
         'MpmGhost.scaling': ['"Paper"'],
         'MpmGhost.where': ['"edges"'],
@@ -394,16 +398,18 @@ def scene(engine='MpmImplicitEngine'):
 	bodies = MpmBodyContact(between=('low', 'up'), friction=0.1)
 	if engine in meeting: solver.contacts, solver.water = [touch, bodies], []
 	if engine == 'MpmRefinement': grid.refinements, solver.water = [small], []
+	adaptation = MpmAdaptation()
+	if engine == 'MpmAdaptation': grid.adaptation, solver.water = [adaptation], []
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + [curve] * (engine in retaining) + ([bodies, *grid.bodies] if engine in meeting else []) + [nail, beam] * (engine in structures)}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [adaptation] * (engine == 'MpmAdaptation') + [solver.flow, drain] * (engine in flowing) + [curve] * (engine in retaining) + ([bodies, *grid.bodies] if engine in meeting else []) + [nail, beam] * (engine in structures)}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic, *flowing, *retaining, *meeting, *structures, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, *flowing, *retaining, *meeting, *structures, 'MpmRefinement', 'MpmAdaptation'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

@@ -261,6 +261,15 @@ def test_discretisation(yade):
 	assert 'no scene' in yade(example, '--scenes', 'ring,rings', fails=True).stderr
 
 
+def test_adaptive(yade):
+	"""Small cells at the edge of a footing save what the page says, with one ladder less."""
+	run = yade(root / 'examples' / 'adaptive' / 'adaptive.py', '--uniform', 1, '--halvings', 2)
+	found = [list(map(float, row)) for row in re.findall(r'^ +(\d+) +(\d) +(\d+) +\S+ +\S+ +([+-]\S+) %', run.stdout, re.MULTILINE)]
+	(_, _, coarse, most), (_, _, fine, less), _, (_, _, adapted, least) = found
+	assert adapted < 1.1 * coarse < fine / 3 and 0 < least < less < most
+	assert (run.folder / 'out/adaptive/adaptive.png').stat().st_size > 20000
+
+
 def test_two_sizes(yade):
 	"""A part of it, with halved cells; what is in the table is not run again."""
 	example = root / 'examples' / 'two_sizes' / 'two_sizes.py'

@@ -140,7 +140,7 @@ namespace {
 
 std::map<string, string> MpmBoundary::warnings(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const
 {
-	if (surface || !analysis.grid->refinements.empty()) return {};
+	if (surface || !analysis.grid->hasEqualCells()) return {};
 	for (int axis = 0; axis < analysis.grid->dim; ++axis)
 		for (const int sign : { 1, -1 })
 			if (fixes(axis))

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/contact/edges.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_picture.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/contacts.hpp"
 #include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/free_bodies.hpp"
+#include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "yade_api/bodies.hpp"
 #include "yade_api/registration.hpp"
@@ -153,6 +155,42 @@ vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
 		for (const auto& node : nodesOf(*found[i], scene))
 			if (known.insert(node->id).second) found.push_back(node);
 	return found;
+}
+
+namespace {
+	template <int Dim> vector<Vector3r> edgesIn(const vector<shared_ptr<Body>>& bodies, const Analysis& analysis, const Scene& scene, Real spacing)
+	{
+		const auto       lattice = analysis.grid->lattice<Dim>();
+		const Real       ahead   = scene.dt * analysis.period();
+		vector<Vector3r> places;
+		for (const Real time : { Real(0), ahead }) {
+			vector<gimpm::RigidBody<Dim>> rigid;
+			for (const auto& body : bodies) {
+				if (!nodesOf(*body, scene).empty()) continue; // nets have no edges
+				const State& state = *body->state;
+				const Real   turn  = state.angVel.norm() * time;
+				Se3r         pose  = poseOf(state);
+				auto         found = rigidBody<Dim>(*body, pose, lattice);
+				if (!found) continue;
+				pose.position += state.vel * time;
+				if (turn > 0) pose.orientation = Quaternionr(Eigen::AngleAxis<Real>(turn, state.angVel.normalized())) * pose.orientation;
+				found->begin = poseOf<Dim>(*body, poseOf(state), pose);
+				rigid.push_back(*found);
+			}
+			for (const auto& x : gimpm::edgesOf(rigid, spacing, lattice.axisymmetric)) {
+				places.push_back(Vector3r::Zero());
+				places.back().head<Dim>() = x;
+			}
+		}
+		return places;
+	}
+}
+
+// A member of a clump moves with its own velocities, which YADE keeps up with the clump's.
+vector<Vector3r> MpmContact::edges(const Analysis& analysis, const Scene& scene, Real spacing) const
+{
+	const auto bodies = touchingBodies(scene);
+	return analysis.grid->dim == 2 ? edgesIn<2>(bodies, analysis, scene, spacing) : edgesIn<3>(bodies, analysis, scene, spacing);
 }
 
 string MpmContact::idleness(const string& name, bool) const

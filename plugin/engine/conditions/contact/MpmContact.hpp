@@ -106,6 +106,8 @@ public:
 	// this iteration of YADE, with a load step or between two.
 	void actOnBodies(Scene&, bool isBetween) override;
 
+	vector<Vector3r> edges(const Analysis&, const Scene&, Real spacing) const override;
+
 	bool        goesOn() const override { return true; }
 	string      needsEqualCells(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	string      needsOneBody(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }

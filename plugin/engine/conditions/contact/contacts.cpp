@@ -13,7 +13,6 @@
 namespace yade {
 
 namespace {
-	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
 	// Pose of a body that has moved with its velocities for some time.
 	Se3r ahead(const State& state, const Se3r& from, Real time)

@@ -11,6 +11,8 @@ namespace yade {
 inline Se3r operator*(const Se3r& a, const Se3r& b) { return { a.position + a.orientation * b.position, a.orientation * b.orientation }; }
 inline Se3r inverse(const Se3r& a) { return { a.orientation.conjugate() * -a.position, a.orientation.conjugate() }; }
 
+inline Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
+
 // Part of the way from one pose to another.
 inline Se3r between(const Se3r& a, const Se3r& b, Real part)
 {

@@ -77,7 +77,7 @@ namespace {
 	string cannotPart(const Analysis& analysis)
 	{
 		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
-		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
+		if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
 		if (analysis.nonlocalLength > 0) return "nonlocalLength";
 		if (analysis.pressureRelaxation) return "pressureRelaxation";
 		if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";

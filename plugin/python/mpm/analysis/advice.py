@@ -195,7 +195,7 @@ def _next(scene):
 	if scene.pointsPerCell < 1.5: better.append('pointsPerCell=2: half of the error')
 	better.append(f"cellSize={scene.h / 2:g}: half of the error for {'4 to 6' if scene.dim == 2 else '10 or more'} times the time")
 	if 0 < scene.steps < 10 and not chosen: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
-	ofStresses = 'mpm.stressError() tells of the stresses when it has run; ' if not scene.solver.grid.refinements else ''
+	ofStresses = 'mpm.stressError() tells of the stresses when it has run; ' if not (scene.solver.grid.refinements or scene.solver.grid.adaptation) else ''
 	wrong = (
 	        f"how wrong it will be: {ofStresses}mpm.discretisationError(run, cellSize={scene.h:g}){' tells' if not ofStresses else ''} of any result, for "
 	        f"{'5 to 8' if scene.dim == 2 else '10 or more'} times the time"

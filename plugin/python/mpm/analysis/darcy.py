@@ -80,8 +80,8 @@ class SteadySeepage:
 
 
 def _requirePlane(solver, unitWeight):
-	if solver.grid.dim != 2 or solver.grid.axisymmetric or any(solver.grid.period) or solver.grid.refinements:
-		raise ValueError('seepage: the grid must be one of plane strain (dim=2), without a period, an axis of symmetry or refinements')
+	if solver.grid.dim != 2 or solver.grid.axisymmetric or any(solver.grid.period) or solver.grid.refinements or solver.grid.adaptation:
+		raise ValueError('seepage: the grid must be one of plane strain (dim=2), without a period, an axis of symmetry, refinements or adaptation')
 	gravity = solver.gravity
 	if gravity[0] != 0 or gravity[1] > 0: raise ValueError(f'seepage: gravity = {place(gravity)} must act downwards, against y')
 	if not isNumber(unitWeight) or not 0 < unitWeight < math.inf: raise ValueError(f'seepage: unitWeight = {brief(unitWeight)} must be a number > 0 [N/m3]')

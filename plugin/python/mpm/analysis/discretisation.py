@@ -33,7 +33,7 @@ def stressError(solver=None):
 	data, _, material = pointsOf(solver)
 	if not len(data['id']): raise ValueError(noPoints('stressError', solver))
 	grid, volume = solver.grid, data['volume']
-	if grid.refinements: raise ValueError('stressError: MpmGrid.refinements: it is for equal cells; mpm.discretisationError may be used')
+	if grid.refinements or grid.adaptation: raise ValueError('stressError: MpmGrid.refinements, adaptation: it is for equal cells; mpm.discretisationError may be used')
 	tensors = data['stress'].reshape(-1, 9)
 	norm = math.sqrt(volume @ (tensors**2).sum(axis=1))
 	if norm == 0: raise ValueError('stressError: no point has any stress; run the analysis first')
