@@ -61,7 +61,7 @@ compared(f'footing by contact, N_c at 0.02 B, {2 * options.cells} cells over the
 figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5.5))
 mpm.plot('plasticStrain', grid=True, loads=False, ax=left)
 left.plot([0, B / 2, B / 2], [-options.depth * B, -options.depth * B, B], 'k', label='footing')
-left.set(xlim=(0, 1.2 * B), ylim=(-0.8 * B, 0.25 * B), title=f'cells at the end, halved up to {options.halvings} times')
+left.set(xlim=(0, 1.2 * B), ylim=(-0.8 * B, 0.25 * B), title='')
 for found, label, marker in (uniform, 'all cells halved', 'o-'), (uniform[:1] + [run[:2] for run in runs], 'cells at the edge halved', 's--'):
 	right.loglog([seconds for seconds, _ in found], [100 * (N / exact - 1) for _, N in found], marker, label=label)
 ticks = 3, 4, 5, 6, 8, 10

@@ -20,7 +20,8 @@ template <int Dim> struct RefinedBox {
 /// The cells that are not halved are the leaves of a tree; a leaf of level l is 2^l times as large as the smallest
 /// cells, those of level 0. All cells that overlap a box are halved. Around them cells are halved as often as it takes
 /// for leaves that touch, be it in a corner, to differ by one level at most: around a block of cells these are blocks
-/// again, so that of large blocks no cell needs to be stored. Small ones, of which there may be many, are kept as cells.
+/// again, so that of large blocks no cell needs to be stored. Small ones, of which there may be many, are kept as
+/// cells.
 template <int Dim> class Refinement {
 public:
 	/// `grid` has the size of the largest cells. There is at least one box, of at least one halving and at most

@@ -3,7 +3,7 @@
 // Conditions on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
-#include "core/terms/contact/contact_energy.hpp"
+#include "core/terms/contact_energy.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include <array>
 #include <map>

@@ -6,9 +6,9 @@
 
 namespace yade {
 
-// Puts the boxes of the coming step into MpmGrid.adapted: cells are halved where the conditions ask for it, at the begin
-// or at the end of the step, as often as maxUnknowns admits. Returns a sentence for the log where it admits less, empty
-// if there is nothing to say.
+// Puts the boxes of the coming step into MpmGrid.adapted: cells are halved where the conditions ask for it, at the
+// begin or at the end of the step, as often as maxUnknowns admits. Returns a sentence for the log where it admits
+// less, empty if there is nothing to say.
 string adapt(const Analysis&, const Scene&, const vector<MaterialPoint>&);
 
 } // namespace yade

@@ -118,8 +118,7 @@ static void requireEqualCells(const Analysis& engine)
 		what = "several processes";
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsEqualCells(listed.name()); !own.empty()) what = own;
-	if (!what.empty())
-		throw std::invalid_argument(engine.grid->severalSizes() + " cannot go with " + what + " yet; leave one of the two out.");
+	if (!what.empty()) throw std::invalid_argument(engine.grid->severalSizes() + " cannot go with " + what + " yet; leave one of the two out.");
 }
 
 // Refuses features that have not been shown to be right with contact between bodies of points.

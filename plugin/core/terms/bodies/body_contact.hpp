@@ -2,8 +2,8 @@
 // Contact of bodies of points with each other.
 #pragma once
 #include "core/terms/bodies/body_pair.hpp"
-#include "core/terms/contact/contact_energy.hpp"
 #include "core/terms/contact/facets.hpp"
+#include "core/terms/contact_energy.hpp"
 #include "core/terms/coupled_term.hpp"
 #include <functional>
 

@@ -2,8 +2,8 @@
 // Positions on the surfaces of bodies, and the pieces before them, as a step begins.
 #include "core/base/sentence.hpp"
 #include "core/terms/bodies/body_contact.hpp"
+#include "core/terms/bodies/pieces_by_cell.hpp"
 #include "core/terms/cell_moduli.hpp"
-#include "core/terms/contact/pieces_by_cell.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>

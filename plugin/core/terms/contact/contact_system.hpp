@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rigid bodies beside the soil, the contact points on them, and what is kept of these from step to step.
 #pragma once
-#include "core/terms/contact/contact_energy.hpp"
 #include "core/terms/contact/contact_free.hpp"
 #include "core/terms/contact/contact_law.hpp"
 #include "core/terms/contact/force_distribution.hpp"
+#include "core/terms/contact_energy.hpp"
 #include <algorithm>
 #include <tuple>
 
