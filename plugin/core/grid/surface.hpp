@@ -48,4 +48,8 @@ template <int Dim> struct Surface {
 	std::vector<int> refine(double limit);
 };
 
+/// Divides the rectangles that two triangles make up into equal ones with sides up to `size`, each of four triangles
+/// around its centre: so it does not matter along which diagonal they were divided. For a surface that has not moved.
+void divideRectangles(Surface<3>&, double size);
+
 } // namespace gimpm

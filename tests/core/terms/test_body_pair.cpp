@@ -149,5 +149,26 @@ namespace {
 		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, PairJacobian::exact));
 	}
 
+	TYPED_TEST(BodyPairTest, ClosestWeightsAreThoseOfTheLeastDistance)
+	{
+		constexpr int                          Dim = TypeParam::value;
+		std::mt19937                           random(3);
+		std::uniform_real_distribution<double> even(-1, 2);
+		auto                                   x = this->start;
+		for (int scene = 0; scene < 100; ++scene) {
+			for (int a = 0; a < Dim; ++a)
+				x[0][a] = even(random);
+			const auto weight = closestWeights(x);
+			Vec<Dim>   foot   = Vec<Dim>::Zero();
+			double     sum    = 0;
+			for (int i = 0; i < Dim; ++i) {
+				EXPECT_GE(weight[i], 0);
+				foot += weight[i] * x[i + 1], sum += weight[i];
+			}
+			EXPECT_NEAR(sum, 1, 1e-14);
+			EXPECT_NEAR((x[0] - foot).squaredNorm(), squaredDistance(x), 1e-13);
+		}
+	}
+
 } // namespace
 } // namespace gimpm::testBodyPair

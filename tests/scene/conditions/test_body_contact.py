@@ -353,6 +353,36 @@ print(json.dumps([stacked(), slide(0.5, 0.3, 8, 0.2), slide(0.5, 0.7, 3, 0.1)]))
 	assert abs(stays[1]) < 0.02 * 10 * math.sin(0.5) * 0.1 and stays[2] < 1
 
 
+def test_a_mirrored_scene_has_mirrored_results_in_space(yade):
+	"""Surfaces are divided without regard to the diagonals of their rectangles; a body that falls at once gives no force beyond its own edges."""
+	differences = yade(scene + '''
+def fallen(isMirrored, isInTime, friction, E, width=1.5):
+	O.reset()
+	material('soil', density=1800)
+	material('rock', young=E, density=1800)
+	grid = MpmGrid(cellSize=0.5, dim=3)
+	across = lambda low, high: (width - high, width - low) if isMirrored else (low, high)
+	(a, b), (c, d) = across(0, width), across(0.35, 1.1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((a, 0, 0), (b, 1, width)), grid, 2, 'soil', body='ground'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((c, 1, 0.25), (d, 1.8, 1)), grid, 2, 'rock', body='slab'))
+	make, O.dt = (MpmDynamicEngine, 5e-3) if isInTime else (MpmImplicitEngine, 0.25)
+	contact = MpmBodyContact(between=('ground', 'slab'), friction=friction)
+	O.engines = [make(grid=grid, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xyz')], contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0)]
+	O.run(4, wait=True)
+	points = mpm.arrays()
+	x = points['pos0'].copy()
+	if isMirrored: x[:, 0] = width - x[:, 0]
+	return points['stress'][np.lexsort(np.round(x, 6).T)][:, 1, 1]
+
+differences = []
+for case in ((False, 0.3, 1e6), (True, 0.3, 1e6), (True, 1.2, 1e7)):
+	one, other = fallen(False, *case), fallen(True, *case)
+	differences.append(float(np.abs(one - other).max() / np.abs(one).max()))
+print(json.dumps(differences))
+''').result
+	assert max(differences) < 1e-5
+
+
 def test_a_scene_goes_on_after_a_restart_to_the_last_bit(yade):
 	same, bodies, numbers = yade(scene + '''
 material('soil'), material('rock', young=1e8)

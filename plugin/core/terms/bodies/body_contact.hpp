@@ -31,6 +31,13 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
+	/// Makes contact independent of the diagonals along which rectangles of the surface were divided, before the first
+	/// step.
+	void divideRectangles(double cellSize)
+	{
+		if constexpr (Dim == 3) gimpm::divideRectangles(surface, cellSize);
+	}
+
 	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later with stretchOfPieces. Returns
 	/// for each which it has been part of.
 	std::vector<int> refine(double cellSize)

@@ -6,7 +6,6 @@
 #include "core/terms/cell_moduli.hpp"
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -104,18 +103,14 @@ template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const Ste
 
 template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
 {
-	const int   body   = meetingOf(contactPoint).master;
-	const auto& facets = facets_[body];
+	const int body = meetingOf(contactPoint).master;
 	for (const int piece : pieces) {
 		const auto x = pair(contactPoint.start, body, piece, start_);
 		if (squaredDistance(x) > reach_ * reach_) continue;
-		Near near { piece, Facing<Dim>(x).weight, {} };
-		for (double& weight : near.weight)
-			weight = std::max(0., weight);
-		const double sum  = std::accumulate(near.weight.begin(), near.weight.end(), 0.);
-		Vec<Dim>     foot = Vec<Dim>::Zero();
+		Near     near { piece, closestWeights(x), {} };
+		Vec<Dim> foot = Vec<Dim>::Zero();
 		for (int v = 0; v < Dim; ++v)
-			near.weight[v] /= sum, foot += near.weight[v] * facets.start[facets.pieces[piece][v]];
+			foot += near.weight[v] * x[v + 1];
 		const auto at = ofMaster(foot);
 		if (!at) continue;
 		near.foot = *at;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 namespace gimpm {
 namespace {
@@ -15,11 +16,15 @@ template <int Dim> Vec<Dim> normalOf(const PairPositions<Dim>& x)
 		return pieceNormal(x[1], x[2], x[3]).normalized();
 }
 
+/// Part of the side from a to b at which it is closest to x.
+template <int Dim> double closestPart(const Vec<Dim>& x, const Vec<Dim>& a, const Vec<Dim>& b)
+{
+	return std::clamp((b - a).dot(x - a) / (b - a).squaredNorm(), 0., 1.);
+}
+
 template <int Dim> double squaredDistance(const Vec<Dim>& x, const Vec<Dim>& a, const Vec<Dim>& b)
 {
-	const Vec<Dim> side = b - a;
-	const double   s    = std::clamp(side.dot(x - a) / side.squaredNorm(), 0., 1.);
-	return (x - a - s * side).squaredNorm();
+	return (x - a - closestPart<Dim>(x, a, b) * (b - a)).squaredNorm();
 }
 
 Mat3 crossing(const Vec3& v) { return (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished(); }
@@ -110,6 +115,28 @@ double squaredDistance(const PairPositions<3>& x)
 	const Facing<3> at(x);
 	if (*std::min_element(at.weight.begin(), at.weight.end()) >= 0) return at.gap * at.gap;
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
+}
+
+std::array<double, 2> closestWeights(const PairPositions<2>& x)
+{
+	const double part = closestPart<2>(x[0], x[1], x[2]);
+	return { 1 - part, part };
+}
+
+std::array<double, 3> closestWeights(const PairPositions<3>& x)
+{
+	std::array<double, 3> weight = Facing<3>(x).weight;
+	if (*std::min_element(weight.begin(), weight.end()) >= 0) return weight;
+	double least = std::numeric_limits<double>::infinity();
+	for (int i = 0; i < 3; ++i) {
+		const int    next = (i + 1) % 3;
+		const double away = squaredDistance<3>(x[0], x[i + 1], x[next + 1]);
+		if (away >= least) continue;
+		least             = away;
+		const double part = closestPart<3>(x[0], x[i + 1], x[next + 1]);
+		weight.fill(0), weight[i] = 1 - part, weight[next] = part;
+	}
+	return weight;
 }
 
 template <int Dim> Facing<Dim>::Facing(const PairPositions<Dim>& x) : normal(normalOf<Dim>(x))

@@ -26,6 +26,10 @@ template <int Dim> struct Facing {
 double squaredDistance(const PairPositions<2>&);
 double squaredDistance(const PairPositions<3>&);
 
+/// Weights of the vertices at the position of the piece that is closest to the contact point.
+std::array<double, 2> closestWeights(const PairPositions<2>&);
+std::array<double, 3> closestWeights(const PairPositions<3>&);
+
 /// Kind of Jacobian. The symmetric one leaves out what is not: that the limit of friction grows with the pressure, and
 /// small parts by the turn of the piece.
 enum class PairJacobian { none, symmetric, exact };

@@ -20,14 +20,14 @@ void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const G
 	to.whole.push_back(number);
 }
 
-using Triangle = Surface<3>::Piece;
+using Polygon = std::vector<int>;
 
-/// The lowest plane of the grid across an axis that a triangle crosses, in cells. None where it lies between two.
-std::optional<double> planeCrossed(const Facets<3>& of, const Triangle& piece, int axis, const Grid<3>& grid)
+/// The lowest plane of the grid across an axis that a polygon crosses, in cells. None where it lies between two.
+std::optional<double> planeCrossed(const Facets<3>& of, const Polygon& polygon, int axis, const Grid<3>& grid)
 {
 	constexpr double    same = 1e-6;
 	std::vector<double> x;
-	for (const int v : piece)
+	for (const int v : polygon)
 		x.push_back((of.start[v][axis] - grid.origin[axis]) / grid.cellSize);
 	const auto [low, high] = std::minmax_element(x.begin(), x.end());
 	const double plane     = std::floor(*low + same) + 1;
@@ -35,17 +35,17 @@ std::optional<double> planeCrossed(const Facets<3>& of, const Triangle& piece, i
 	return std::nullopt;
 }
 
-/// The parts of a triangle on the two sides of a plane, as triangles.
-std::vector<Triangle> split(Facets<3>& of, const Triangle& piece, int axis, double plane, const Grid<3>& grid)
+/// The parts of a convex polygon below and above a plane.
+std::array<Polygon, 2> split(Facets<3>& of, const Polygon& polygon, int axis, double plane, const Grid<3>& grid)
 {
 	constexpr double same     = 1e-6;
 	const auto       distance = [&](int v) {
                 const double away = (of.start[v][axis] - grid.origin[axis]) / grid.cellSize - plane;
                 return std::abs(away) < same ? 0. : away;
 	};
-	std::array<std::vector<int>, 2> sides; // corners below and above
-	for (int i = 0; i < 3; ++i) {
-		const int    v = piece[i], next = piece[(i + 1) % 3];
+	std::array<Polygon, 2> sides;
+	for (std::size_t i = 0; i < polygon.size(); ++i) {
+		const int    v = polygon[i], next = polygon[(i + 1) % polygon.size()];
 		const double own = distance(v), other = distance(next);
 		if (own <= 0) sides[0].push_back(v);
 		if (own >= 0) sides[1].push_back(v);
@@ -54,26 +54,53 @@ std::vector<Triangle> split(Facets<3>& of, const Triangle& piece, int axis, doub
 		for (auto& side : sides)
 			side.push_back(int(of.start.size()) - 1);
 	}
-	std::vector<Triangle> parts;
-	for (const auto& side : sides)
-		for (std::size_t i = 2; i < side.size(); ++i)
-			parts.push_back({ side[0], side[i - 1], side[i] });
+	return sides;
+}
+
+/// The first corner of the shorter diagonal of a quadrilateral; none where both are equal.
+std::optional<int> shorterDiagonal(const Facets<3>& of, const Polygon& polygon)
+{
+	constexpr double same   = 1e-6;
+	const auto       length = [&](int i) { return (of.start[polygon[i]] - of.start[polygon[i + 2]]).norm(); };
+	const double     first = length(0), second = length(1);
+	if (std::abs(first - second) <= same * first) return std::nullopt;
+	return first < second ? 0 : 1;
+}
+
+/// Triangles of a convex polygon, which do not depend on the order of its corners: mirrored bodies have mirrored ones.
+std::vector<Facets<3>::Piece> triangles(Facets<3>& of, const Polygon& polygon)
+{
+	if (polygon.size() == 3) return { { polygon[0], polygon[1], polygon[2] } };
+	if (polygon.size() == 4)
+		if (const auto i = shorterDiagonal(of, polygon))
+			return { { polygon[*i], polygon[*i + 1], polygon[*i + 2] }, { polygon[*i + 2], polygon[(*i + 3) % 4], polygon[*i] } };
+	Vec<3> centre = Vec<3>::Zero();
+	for (const int v : polygon)
+		centre += of.start[v] / double(polygon.size());
+	of.start.push_back(centre);
+	std::vector<Facets<3>::Piece> parts;
+	for (std::size_t i = 0; i < polygon.size(); ++i)
+		parts.push_back({ polygon[i], polygon[(i + 1) % polygon.size()], int(of.start.size()) - 1 });
 	return parts;
 }
 
-void addPiece(Facets<3>& to, const Triangle& piece, int number, const Grid<3>& grid)
+void addPiece(Facets<3>& to, const Surface<3>::Piece& piece, int number, const Grid<3>& grid)
 {
-	std::vector<Triangle> open { piece };
+	std::vector<Polygon> open { { piece.begin(), piece.end() } };
 	while (!open.empty()) {
-		const Triangle own = open.back();
+		const Polygon own = std::move(open.back());
 		open.pop_back();
-		std::vector<Triangle> parts;
-		for (int a = 0; parts.empty() && a < 3; ++a)
-			if (const auto plane = planeCrossed(to, own, a, grid)) parts = split(to, own, a, *plane, grid);
-		open.insert(open.end(), parts.begin(), parts.end());
-		if (!parts.empty()) continue;
-		to.pieces.push_back(own);
-		to.whole.push_back(number);
+		bool isWhole = true;
+		for (int a = 0; isWhole && a < 3; ++a)
+			if (const auto plane = planeCrossed(to, own, a, grid)) {
+				isWhole = false;
+				for (Polygon& part : split(to, own, a, *plane, grid))
+					if (part.size() > 2) open.push_back(std::move(part));
+			}
+		if (!isWhole) continue;
+		const auto parts = triangles(to, own);
+		to.pieces.insert(to.pieces.end(), parts.begin(), parts.end());
+		to.whole.resize(to.pieces.size(), number);
 	}
 }
 

@@ -130,6 +130,7 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 		body.surface.pieces.emplace_back();
 		std::copy(from.pieces[i].begin(), from.pieces[i].end(), body.surface.pieces.back().begin());
 	}
+	if (from.initialVertices.empty()) body.divideRectangles(lattice.cellSize);
 	body.refine(lattice.cellSize);
 	return body;
 }
