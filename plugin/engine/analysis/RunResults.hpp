@@ -72,6 +72,7 @@ struct RunResults {
 	// Not by name, for report(): the last load step that was tried, the number of points, and the times of the run
 	// by phase [s].
 	gimpm::StepReport      last;
+	gimpm::StepReport      lastCut; // the last step that was cut, of any run
 	size_t                 pointsOfRun = 0;
 	std::map<string, Real> times;
 

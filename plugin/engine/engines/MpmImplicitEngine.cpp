@@ -376,6 +376,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 		lastDisplacements = toNumbers(tried.last, job.model.grid), lastLoadIncrement = tried.last.load;
 		const Real part   = job.control.part();
 		const bool goesOn = job.control.take(report);
+		if (job.control.cuts() > cuts) lastCut = report;
 		cuts = job.control.cuts(), stepPart = job.control.nextPart();
 		if (!goesOn) {
 			const string reason = reasonOf(report, *this, points, tried.time, part);

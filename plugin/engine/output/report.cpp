@@ -59,6 +59,10 @@ namespace {
 		  "'interrupted'.",
 		  [](E e) { return py::object(nameOf(e.last.failure)); } },
 		{ "cause", "The reason, a clause, empty when converged.", [](E e) { return py::object(e.last.cause); } },
+		{ "cutFailure",
+		  "Kind of failure for which the last step that was cut was cut, as *failure*, also of an earlier run; 'none' if none was. *stepPart* is what it left.",
+		  [](E e) { return py::object(nameOf(e.lastCut.failure)); } },
+		{ "cutCause", "Its reason, a clause, empty if no step was cut.", [](E e) { return py::object(e.lastCut.cause); } },
 		{ "loadTime", "Of the last converged state [s].", [](E e) { return py::object(e.loadTime); } },
 		{ "times",
 		  "Of the run by phase [s], a dict: 'check' (of points that are new or were changed), 'gather', 'agree' (several processes, on the points), 'basis', "

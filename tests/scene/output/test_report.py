@@ -46,3 +46,28 @@ def test_the_reference_has_the_same(yade, told):
 	page = (yade.folder / 'page.rst').read_text()
 	section = page[page.index(' report() -> dict\n'):]
 	assert documented(section[:section.index('.. py:')]) == documented(told['static']['text'])
+
+
+def test_the_cause_of_a_cut_is_kept(yade):
+	"""After the shorter steps have converged, and in the next run, which begins with a part of O.dt."""
+	before, after, later = yade('''
+import json
+from yade import mpm
+O.materials.append(MpmElasticMat(young=1e5, poisson=0.2, density=2000, label='soft'))
+grid = MpmGrid(cellSize=1)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), grid, 2, 'soft'))
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], newton=MpmNewton(maxIterations=3, tolerance=1e-10), verbosity=0)
+O.engines, O.dt = [solver], 1e-3
+told = lambda: [solver.report()[key] for key in ('cuts', 'failure', 'cutFailure', 'cutCause')]
+O.run(1, wait=True)
+found = [told()]
+O.dt = 1
+O.run(1, wait=True)
+found.append(told())
+O.dt = 1e-3
+O.run(1, wait=True)
+print(json.dumps([*found, told()]))
+''').result
+	assert before == [0, 'none', 'none', '']
+	assert after[0] > 0 and after[1:3] == ['none', 'tooManyIterations'] and 'iterations' in after[3]
+	assert later[0] == 0 and later[1:] == after[1:]
