@@ -31,8 +31,7 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// Makes contact independent of the diagonals along which rectangles of the surface were divided, before the first
-	/// step.
+	/// Makes contact independent of the diagonals of rectangles, before the first step.
 	void divideRectangles(double cellSize)
 	{
 		if constexpr (Dim == 3) gimpm::divideRectangles(surface, cellSize);
