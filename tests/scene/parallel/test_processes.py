@@ -526,3 +526,42 @@ def test_without_the_library_one_sentence_says_what_to_do(yadeWithoutPetsc):
 	"""In processes that mpirun has started."""
 	run = yadeWithoutPetsc(setting + 'slope(2.0)\nO.run(1, wait=True)\n', processes=2, fails=True)
 	assert 'mpirun has started 2 processes' in run.stderr and 'scripts/setup --with-petsc, or the package yade-mpm-petsc, installs it' in run.stderr
+
+
+def test_water_that_jumps_is_that_of_one_process(yade):
+	"""A pressure that jumps from 5 to 3 m of water, and water that flows between such drains, with all points in both processes and with points in pieces; that beams do not part soil there is said, and in pieces they are refused."""
+	script = '''
+import json, os, sys
+import numpy as np
+from yade import mpm
+which, hasWall, setting = sys.argv[1:]
+O.materials.append(MpmElasticMat(young=5e7, poisson=0.3, density=2000, conductivity=1e-5, porosity=0.4, label='sand'))
+grid = MpmGrid(cellSize=0.5)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (8, 0), (8, 3), (4, 3), (4, 5), (0, 5)]), grid, 2, 'sand'))
+held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(8, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+level = lambda x: 5 if x[0] < 4 else 3
+wet = dict(water=[MpmWater(pressure=lambda x: 1e4 * max(0, level(x) - x[1]))]) if which == 'water' else dict(flow=MpmFlow(drains=[MpmDrain(surface=[(4, 5), (0, 5)], pressure=1e4), MpmDrain(surface=[(8, 3), (4, 3)])]))
+walls = [MpmBeam(line=[(4, 5), (4, 1)], axialStiffness=3e9, bendingStiffness=5e7)] if hasWall == 'wall' else []
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, loads=walls, newton=MpmNewton(tolerance=1e-10), verbosity=0, **wet, **eval(setting))
+O.engines, O.dt = [solver], 0.5
+said = ''
+try:
+	O.run(1 if walls else 2, wait=True)
+except (ValueError, RuntimeError) as error:
+	said = str(error)
+points = mpm.arrays()
+order = np.lexsort(points['pos0'].T)
+if int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0:
+	json.dump([said, (points['pos'] - points['pos0'])[order].tolist()], open('found.json', 'w'))
+'''
+	def found(which, wall='', setting='{}', **how):
+		run = yade(script, which, wall, setting, **how)
+		return *json.loads((yade.folder / 'found.json').read_text()), run.stderr
+	for which in 'water', 'flow':
+		_, moved, _ = found(which)
+		assert np.abs(moved).max() > 1e-4
+		for setting in ('{}', 'dict(distributed=True)') if which == 'water' else ('dict(distributed=True)', ):
+			said, same, _ = found(which, setting=setting, processes=2)
+			assert said == '' and np.abs(np.array(same) - moved).max() < 1e-9
+	assert 'beams do not part it beside several processes' in found('water', 'wall', processes=2)[2]
+	assert 'MpmBeam cannot go with distributed=True' in found('water', 'wall', 'dict(distributed=True)', processes=2)[0]
