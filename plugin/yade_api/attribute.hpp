@@ -51,64 +51,94 @@ public:
 	using Member = T Serializable::*;
 
 	AttributeOf(const ListedAttribute& listed, Member member) : Attribute(listed), member_(member) { }
-	void assign(Serializable& object, const py::object& value) const override
-	{
-		const std::optional<T> converted = Conversion<T>::fromPython(value);
-		if (!converted) refuseType(value, Conversion<T>::expected(), ItemOf<T>::is(value));
-		requireAdmitted(*converted);
-		const ValueLock lock;
-		in(object) = *converted;
-	}
-	py::object read(const Serializable& object) const override
-	{
-		const T    value     = copy(object);
-		const auto converted = Conversion<T>::toPython(value);
-		if constexpr (std::is_same_v<decltype(converted), const py::tuple>) return copyOfAttribute(converted, qualifiedName(), is(readonly));
-		else
-			return converted;
-	}
-	void requireAdmitted(const Serializable& object) const override { requireAdmitted(in(const_cast<Serializable&>(object))); }
+	void       assign(Serializable& object, const py::object& value) const override;
+	py::object read(const Serializable& object) const override;
+	void       requireAdmitted(const Serializable& object) const override;
+	py::object getter() const override;
 
-	void serialize(boost::archive::xml_iarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
-	void serialize(boost::archive::xml_oarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
-	void serialize(boost::archive::binary_iarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
-	void serialize(boost::archive::binary_oarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
-
-	// Vectors and matrices that may be written come by reference, as in YADE: b.state.force[1] = 3
-	py::object getter() const override
-	{
-		if constexpr (std::is_same_v<T, Vector3r> || std::is_same_v<T, Matrix3r>)
-			if (!is(readonly)) {
-				const auto reference = [this](Serializable& object) -> T& { return in(object); };
-				return py::make_function(reference, py::return_internal_reference<>(), boost::mpl::vector2<T&, Serializable&>());
-			}
-		return Attribute::getter();
-	}
+	void serialize(boost::archive::xml_iarchive& archive, Serializable& object) const override;
+	void serialize(boost::archive::xml_oarchive& archive, Serializable& object) const override;
+	void serialize(boost::archive::binary_iarchive& archive, Serializable& object) const override;
+	void serialize(boost::archive::binary_oarchive& archive, Serializable& object) const override;
 
 private:
 	virtual bool   admits(const T&) const = 0;
 	virtual string admitted() const       = 0;
 
-	T& in(Serializable& object) const { return object.*member_; }
-	T  copy(const Serializable& object) const
-	{
-		const ValueLock lock;
-		return in(const_cast<Serializable&>(object));
-	}
-	void requireAdmitted(const T& value) const
-	{
-		if (admits(value)) return;
-		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for
-		// the engine.
-		refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted());
-	}
-	template <class Archive> void serializeBy(Archive& archive, Serializable& object) const
-	{
-		if (!is(noSave)) archive& boost::serialization::make_nvp(name, in(object));
-	}
+	T&                      in(Serializable& object) const { return object.*member_; }
+	T                       copy(const Serializable& object) const;
+	void                    requireAdmitted(const T& value) const;
+	template <class A> void serializeBy(A& archive, Serializable& object) const;
 
 	Member member_;
 };
+
+// Defined outside the class: bodies inside are inline, and each file would compile them in spite of `extern template`.
+template <class T> void AttributeOf<T>::assign(Serializable& object, const py::object& value) const
+{
+	const std::optional<T> converted = Conversion<T>::fromPython(value);
+	if (!converted) refuseType(value, Conversion<T>::expected(), ItemOf<T>::is(value));
+	requireAdmitted(*converted);
+	const ValueLock lock;
+	in(object) = *converted;
+}
+
+template <class T> py::object AttributeOf<T>::read(const Serializable& object) const
+{
+	const T    value     = copy(object);
+	const auto converted = Conversion<T>::toPython(value);
+	if constexpr (std::is_same_v<decltype(converted), const py::tuple>) return copyOfAttribute(converted, qualifiedName(), is(readonly));
+	else
+		return converted;
+}
+
+// Vectors and matrices that may be written come by reference, as in YADE: b.state.force[1] = 3
+template <class T> py::object AttributeOf<T>::getter() const
+{
+	if constexpr (std::is_same_v<T, Vector3r> || std::is_same_v<T, Matrix3r>)
+		if (!is(readonly)) {
+			const auto reference = [this](Serializable& object) -> T& { return in(object); };
+			return py::make_function(reference, py::return_internal_reference<>(), boost::mpl::vector2<T&, Serializable&>());
+		}
+	return Attribute::getter();
+}
+
+template <class T> T AttributeOf<T>::copy(const Serializable& object) const
+{
+	const ValueLock lock;
+	return in(const_cast<Serializable&>(object));
+}
+
+template <class T> void AttributeOf<T>::requireAdmitted(const Serializable& object) const { requireAdmitted(in(const_cast<Serializable&>(object))); }
+template <class T> void AttributeOf<T>::requireAdmitted(const T& value) const
+{
+	if (admits(value)) return;
+	// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for the
+	// engine.
+	refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted());
+}
+
+template <class T> template <class Archive> void AttributeOf<T>::serializeBy(Archive& archive, Serializable& object) const
+{
+	if (!is(noSave)) archive& boost::serialization::make_nvp(name, in(object));
+}
+template <class T> void AttributeOf<T>::serialize(boost::archive::xml_iarchive& archive, Serializable& object) const { serializeBy(archive, object); }
+template <class T> void AttributeOf<T>::serialize(boost::archive::xml_oarchive& archive, Serializable& object) const { serializeBy(archive, object); }
+template <class T> void AttributeOf<T>::serialize(boost::archive::binary_iarchive& archive, Serializable& object) const { serializeBy(archive, object); }
+template <class T> void AttributeOf<T>::serialize(boost::archive::binary_oarchive& archive, Serializable& object) const { serializeBy(archive, object); }
+
+// Types of attributes that several files have: compiled in yade_api/attribute_types.cpp only.
+extern template class AttributeOf<bool>;
+extern template class AttributeOf<int>;
+extern template class AttributeOf<Real>;
+extern template class AttributeOf<string>;
+extern template class AttributeOf<Vector3r>;
+extern template class AttributeOf<vector<Real>>;
+extern template class AttributeOf<vector<string>>;
+extern template class AttributeOf<vector<Vector3r>>;
+extern template class AttributeOf<vector<vector<int>>>;
+extern template class AttributeOf<vector<std::pair<Real, Real>>>;
+extern template class AttributeOf<vector<std::pair<string, Real>>>;
 
 template <class T, class Validator> class ValidatedAttribute final : public AttributeOf<T> {
 public:
