@@ -22,10 +22,20 @@ inline bool mayUseAvx2 = true;
 
 inline bool processorHasAvx2() { return mayUseAvx2 && __builtin_cpu_supports("x86-64-v3"); }
 
+#ifdef GIMPM_BRIEF
+template <class> constexpr bool mayHaveKernels = false;
+#else
+template <class> constexpr bool mayHaveKernels = true;
+#endif
+
 /// f(), with all that it calls compiled into one function, for AVX2 if the processor has it.
 template <class F>[[GIMPM_FLATTEN gnu::noinline]] void                   callPortable(F&& f) { f(); }
-template <class F>[[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
-template <class F> void                                                  callForProcessor(F&& f)
+template <class F>[[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f)
+{
+	static_assert(mayHaveKernels<F>, "code for AVX2 needs all optimisation: exclude this file from brief_sources of plugin/CMakeLists.txt");
+	f();
+}
+template <class F> void callForProcessor(F&& f)
 {
 	if (processorHasAvx2()) callAvx2(f);
 	else
