@@ -160,7 +160,7 @@ def column():
 		print(f'column, {run.__name__}: up to 8 Hz off by {100 * np.abs(found / exact - 1)[three:][below].max():.2f} % at most')
 		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='closed form')
 		ax.plot(f[three:], found[three:], '.', color='#1864ab', label='found')
-		ax.plot(f[:three], found[:three], 'o', fillstyle='none', color='#d9480f')
+		ax.plot(f[:three], found[:three], 'o', fillstyle='none', color='#d9480f', label='found, as in the table')
 		ax.set(xlabel='frequency [Hz]', ylabel='surface over ' + ('base' if run is rigid else 'outcrop of the rock'), title=f'{run.__name__} base')
 		ax.legend(loc='upper right')
 	scheme = mpm.schemeDamping(frequencies)

@@ -57,7 +57,7 @@ while O.time < options.end - O.dt / 2:
 	moments.append(-mpm.sectionForces('dam', (cut, (0, 1)))['M'])
 	if when and O.time >= when[0]:
 		picture = pictures[3 - len(when)]
-		mpm.plot('velocity_x', ax=picture, range=(0, 5), loads=False)
+		mpm.plot('velocity_x', ax=picture, range=(0, 5), loads=False, colormap='viridis_r')
 		picture.set_title(f'{when.pop(0):.2f} s', fontsize='medium')
 times, forces, moments = np.array(times), np.array(forces), np.array(moments)
 touched = times[forces != 0][0] if forces.any() else np.nan
@@ -67,10 +67,10 @@ print(f'force on the dam: largest {forces.max() / 1e3:.1f} kN/m, at the end {for
 print(f'ground and dam bear ({borne[0] / 1e3:.2f}, {borne[1] / 1e3:.2f}) kN/m in the end, the weight of the slide is ({weight * sin(slope) / 1e3:.2f}, {-weight * cos(slope) / 1e3:.2f})')
 compared('a slide meets a dam', touched, arrival, 'a block on an incline', 's')
 compared('what bears a slide in the end, along the slope', borne[0], weight * sin(slope), 'its weight', 'N/m')
-pictures[3].plot(times, forces / 1e3, label='force on the dam [kN/m]')
-pictures[3].plot(times, np.abs(moments) / 1e3, label='moment a cell above its foot [kN m/m]')
+pictures[3].plot(times, forces / 1e3, label='force on the dam')
+pictures[3].plot(times, np.abs(moments) / 1e3, label='moment a cell above its foot')
 pictures[3].axvline(arrival, color='k', lw=0.8, ls='--', label='arrival of a block')
-pictures[3].set(xlabel='time [s]')
+pictures[3].set(xlabel='time [s]', ylabel='[kN/m], [kN m/m]')
 pictures[3].legend()
 figure.savefig(os.path.join(options.out, 'slide.png'), dpi=110)
 print(f'written: {options.out}/slide.png, and for ParaView {options.out}/slide-points.pvd')

@@ -37,9 +37,9 @@ def columnErrors(series, path):
 	cells = np.array([32., 256.])
 	for order, top in (1, 1.6e-3), (2, 8e-4):
 		axes.loglog(cells, top * (cells / cells[0])**-order, 'k:', linewidth=0.8)
-		axes.annotate(f'order {order}', (cells[1], top * 8.**-order), fontsize=8)
-	axes.set(xlabel='cells over the height', ylabel='stress error (eq. 7)', ylim=(1e-5, 0.1))
-	axes.legend(frameon=False, fontsize=8)
+		axes.annotate(f'order {order}', (cells[1], top * 8.**-order), fontsize=10)
+	axes.set(xlabel='cells over the height', ylabel='stress error (C7) [-]', ylim=(1e-5, 0.1))
+	axes.legend(frameon=False, fontsize=10)
 	save(figure, path)
 
 
@@ -107,11 +107,12 @@ def deformedSlope(state, title, path):
 def scalings(rows, path):
 	"""Condition number and column error against the cell size."""
 	figure, panels = plt.subplots(1, 2, figsize=(10, 3.8), layout='constrained')
-	for axes, column, label in zip(panels, ('conditionNumber', 'error'), ('condition number $\\kappa([K])$', 'stress error (eq. 7)')):
+	for axes, column, label in zip(panels, ('conditionNumber', 'error'), ('condition number $\\kappa([K])$', 'stress error (C7) [-]')):
 		for ghost in 'none', 'paper', 'mesh-independent':
 			ours = sorted((row['cellSize'], row[column]) for row in rows if row['ghost'] == ghost)
 			axes.loglog(*zip(*ours), 'o-', color=colours[ghost], markersize=4, label=names[ghost])
 		axes.set(xlabel='cell size $h$ [m]', ylabel=label)
 	panels[1].set(ylim=(1e-3, 1e-2))
 	panels[0].legend(frameon=False)
+	panels[1].legend(frameon=False)
 	save(figure, path)

@@ -59,6 +59,11 @@ def profile(name='excessPressure'):
 	return heights, np.array([value[abs(y - height) < 1e-6].mean(axis=0) for height in heights])
 
 
+def below(axes):
+	"""Legend under the axes, where it covers no curve."""
+	axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.16), ncols=3, frameon=False)
+
+
 def front(axes):
 	sand = MpmVanGenuchten(alpha=3.35, n=2, residual=.102 / .368)
 	scene(1, (0, -9.81, 0), lambda y: -10 * weight, (dict(pressure=-.75 * weight), dict(pressure=-10 * weight)), conductivity=9.22e-5, porosity=.368, retention=sand)
@@ -70,7 +75,7 @@ def front(axes):
 	print(f'front: {depth:.4f} m below the top after 24 h, {100 * (depth / .5651 - 1):+.2f} % of 800 finite volumes; water lost {lost:.1e}')
 	compared('depth of the wetting front (psi = -5 m) after 24 h', depth, .5651, 'finite volumes, case of Celia and others 1990', 'm')
 	axes.set(title='wetting front in dry sand', xlabel='head [m]', ylabel='height [m]')
-	axes.legend()
+	below(axes)
 
 
 known = {  # heads [m] at the heights .2 .4 .6 .8 1 m, by hours of rain
@@ -95,7 +100,7 @@ def rain(axes):
 		axes.plot(heads, (.2, .4, .6, .8, 1), 'ko', ms=3)
 	print(f'rain: heads within {worst * 1e3:.2f} mm of the closed form, {100 * worst / .22805:.2f} % of their range')
 	axes.set(title='rain on a column, dots: closed form', xlabel='head [m]')
-	axes.legend()
+	below(axes)
 
 
 def slope(axes):
@@ -109,7 +114,8 @@ def slope(axes):
 			O.step()
 		y, stress = profile('stress')
 		F = -np.tan(phi) * stress[:, 1, 1] / abs(stress[:, 0, 1])
-		axes.plot(F, y / np.cos(beta), label=f'{q:g} m/s')
+		cells = slice(0, 2 * (len(F) // 2))  # both points of a cell have its stress: means over cells
+		axes.plot(F[cells].reshape(-1, 2).mean(axis=1), y[cells].reshape(-1, 2).mean(axis=1) / np.cos(beta), label=f'{q:g} m/s')
 		for z, theirs in zip((3, 4), exact):
 			normal, shear = (np.interp(z * np.cos(beta), y, part) for part in (stress[:, 1, 1], stress[:, 0, 1]))
 			ours = -np.tan(phi) * normal / abs(shear)
@@ -117,13 +123,13 @@ def slope(axes):
 			compared(f'factor of safety of an infinite slope {z} m above the water table, infiltration {q:g} m/s', ours, theirs, 'Lu and Godt 2008')
 		axes.plot(exact, (3, 4), 'ko', ms=3)
 	axes.set(title='infinite slope, dots: closed form', xlabel='factor of safety', ylabel='height above the water table [m]', xlim=(0.5, 3))
-	axes.legend()
+	below(axes)
 
 
 begin = time.time()
 scenes = dict(front=front, rain=rain, slope=slope)
 chosen = scenes if options.scene == 'all' else [options.scene]
-figure, axes = plt.subplots(1, len(chosen), figsize=(4.2 * len(chosen), 4), layout='constrained', squeeze=False)
+figure, axes = plt.subplots(1, len(chosen), figsize=(4.6 * len(chosen), 4.8), layout='constrained', squeeze=False)
 for name, ax in zip(chosen, axes[0]):
 	scenes[name](ax)
 figure.savefig(os.path.join(options.out, 'rain.png'), dpi=110)

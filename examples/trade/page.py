@@ -37,10 +37,10 @@ def picture(name, plan, runs, front, uncertainty, path):
 	axes.loglog([run.cpu for run in front], [run.error for run in front], 'k-', linewidth=1, label='front')
 	if uncertainty > 0: axes.axhspan(axes.get_ylim()[0], uncertainty, color='0.9', label='uncertainty of the reference')
 	axes.set(xlabel='processor time of the whole script [s], one thread', title=f'{name}: what accuracy costs')
-	axes.set_ylabel(errorLabel(plan), fontsize=9)
+	axes.set_ylabel(errorLabel(plan), fontsize=11)
 	axes.grid(alpha=0.3)
-	axes.legend(fontsize=7, frameon=False)
-	if len(second) > 1: figure.text(0.5, -0.01, f"marks: {plan.words.get(names[1], names[1])}: {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=7)
+	axes.legend(fontsize=9, frameon=False)
+	if len(second) > 1: figure.text(0.5, -0.03, f"marks: {plan.words.get(names[1], names[1])}: {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=10)
 	figure.savefig(path, dpi=120, bbox_inches='tight')
 	plt.close(figure)
 
@@ -48,7 +48,8 @@ def picture(name, plan, runs, front, uncertainty, path):
 def errorLabel(plan):
 	"""Label of the error, with its quantity."""
 	what = [plan.words.get(name, name) for name in plan.errors + plan.quantities]
-	return f"relative error of the {' and '.join(what)} [-]" + (',\nthe largest of them' if len(what) > 1 else '')
+	if len(what) == 1: return f'relative error of the {what[0]} [-]'
+	return 'relative error [-], the largest of\n' + ' and '.join(what)
 
 
 def measureOf(plan, uncertainty):

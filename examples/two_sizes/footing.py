@@ -78,6 +78,8 @@ for halvings, reach in variants:
 
 if options.picture:
 	from style import plt
-	figure, axes = plt.subplots(figsize=(7.5, 5.4), layout='constrained')
-	mpm.plot('meanStress', ax=axes, grid=True, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
+	figure, axes = plt.subplots(figsize=(8, 5.6), layout='constrained')
+	axes.set_title('mean stress below half of the footing', pad=24)
+	mpm.plot('meanStress', ax=axes, grid=True, range=(-6 * cu, 0), plane=('z', 1e-3) if options.dim == 3 else None)
+	axes.set(xlim=(0, 2 * B), ylim=(-1.25 * B, 0.15 * B))
 	figure.savefig(os.path.join(options.out, 'footing.png'), dpi=130)

@@ -87,21 +87,21 @@ def slow(level):
 
 begin = time.time()
 durations = [float(text) for text in options.durations.split(',')]
-figure, axes = plt.subplots(1, 2, figsize=(12, 4.4), layout='constrained', gridspec_kw=dict(width_ratios=(1, 1.3)))
+figure, axes = plt.subplots(1, 2, figsize=(12, 4.8), layout='constrained', gridspec_kw=dict(width_ratios=(1, 1.3)))
 for n, duration in enumerate(durations):
 	rows = np.array(drawn(duration))
 	axes[0].plot(rows[:, 0] / H, rows[:, 2], 'o-', color=f'C{n}', label=f'in {duration:g} $H^2/c_v$')
-	axes[0].plot(rows[:, 0] / H, rows[:, 3], ':', color=f'C{n}')
+	axes[0].plot(rows[:, 0] / H, rows[:, 3], 'x:', color=f'C{n}', markersize=8, zorder=3)
 	if n == len(durations) // 2:
 		mpm.plot('porePressure', ax=axes[1])
-		axes[1].set_title(f'pressure in the pores, drawn down in {duration:g} $H^2/c_v$')
+		axes[1].set_title(f'pore pressure, drawn down in {duration:g} $H^2/c_v$')
 given = np.array([(level, slow(level)) for level in rows[:, 0]])
 for (level, F), (_, _, ours, _) in zip(given, rows):
 	print(f'level {level:.2f} m: F = {F:.3f} where the pressure is that of the level')
 	if durations[-1] >= 100: compared(f'factor of safety drawn down slowly, level {level:g} m', ours, F, 'MpmWater of that level')
 axes[0].plot(given[:, 0] / H, given[:, 1], 'k--', label='pressure of the level')
-axes[0].set(xlabel='level over height of the bank', ylabel='factor of safety (dotted: with suction)')
-axes[0].invert_xaxis()
-axes[0].legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=2, fontsize='small')
+axes[0].plot([], [], 'x:', color='0.4', label='the same with suction')
+axes[0].set(xlabel='water level over height of the bank [-]', ylabel='factor of safety [-]')
+axes[0].legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=2, frameon=False)
 figure.savefig(os.path.join(options.out, 'drawdown.png'), dpi=110)
 print(f'{time.time() - begin:.0f} s')

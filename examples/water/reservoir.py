@@ -90,7 +90,7 @@ def drawDown(flow):
 		O.run(4, wait=True)
 		factors.append((f'level {level * (1 - part) / 2:g} m', factor(f'drawn down to {level * (1 - part) / 2:g} m, {(O.time - begin) / day:.2f} days')))
 	mpm.plot('porePressure', ax=axes[1], range=(-60e3, 90e3))
-	axes[1].set_title(f'pressure in the pores, drawn down within {options.days:g} days')
+	axes[1].set_title('pore pressure, drawn down within ' + ('a day' if options.days == 1 else f'{options.days:g} days'))
 	for days in 9, 90, 2900:
 		for dt in np.full(4, days / 4):
 			O.dt = dt * day
@@ -104,13 +104,14 @@ flow, factors = build(), []
 factors.append(('built', factor('built')))
 fill(flow)
 mpm.plot('porePressure', ax=axes[0], range=(-60e3, 90e3))
-axes[0].plot(*np.transpose(flow.surface), color='crimson', linewidth=1.8)
-axes[0].set_title(f'steady seepage: pressure in the pores, {86.4e6 * flow.discharge[1]:.1f} l a day and metre')
+axes[0].plot(*np.transpose(flow.surface), color='crimson', linewidth=1.8, label='water table')
+axes[0].legend(loc='upper right', frameon=False)
+axes[0].set_title(f'pore pressure, steady seepage of {86.4e6 * flow.discharge[1]:.1f} l a day and metre')
 drawDown(flow)
 compared('factor of safety of a dam long after its reservoir is gone', factors[-1][1], factors[0][1], 'the same dam before there was one')
 names, values = zip(*factors)
 axes[2].bar(names, values, color='steelblue')
 axes[2].bar_label(axes[2].containers[0], fmt='%.2f')
-axes[2].set(title='factor of safety', ylim=(0, 1.15 * max(values)))
+axes[2].set(ylabel='factor of safety [-]', ylim=(0, 1.15 * max(values)))
 figure.savefig(os.path.join(options.out, 'reservoir.png'), dpi=100)
 print(f'{time.time() - begin:.0f} s')

@@ -109,16 +109,14 @@ def banks():
 
 
 def picture(submerged, levels, slow, low, rapid):
-	figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), gridspec_kw=dict(width_ratios=(1, 1.3)))
+	figure, axes = plt.subplots(1, 2, figsize=(11, 4.8), gridspec_kw=dict(width_ratios=(1, 1.3)), layout='constrained')
 	axes[0].plot(levels / H, slow, 'o-', label='slow drawdown')
 	axes[0].plot(low / H, rapid, 's', label='at once')
 	axes[0].axhline(submerged, color='grey', linestyle='--', label='submerged density, no water')
-	axes[0].set(xlabel='level over height of the bank', ylabel='factor of safety')
-	axes[0].invert_xaxis()
-	axes[0].legend()
+	axes[0].set(xlabel='water level over height of the bank [-]', ylabel='factor of safety [-]')
+	axes[0].legend(loc='upper center', bbox_to_anchor=(0.5, -0.16), ncols=2, frameon=False)
 	mpm.plot('porePressure', ax=axes[1])
-	axes[1].set_title(f'pressure in the pores, drawn down at once to {low[-1] / H:.2g} H')
-	figure.tight_layout()
+	axes[1].set_title(f'pore pressure after a drawdown at once to {low[-1] / H:.2g} H')
 	figure.savefig(os.path.join(options.out, 'water.png'), dpi=110)
 
 

@@ -41,6 +41,12 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	axes.plot(*x.T, color='black', linewidth=2, zorder=5)
 	largest = np.abs(values).argmax()
 	piece = min(largest, len(aside) - 1)
-	text = f'{values[largest] / 1e3:.4g} kN{" m" if "oment" in quantity else ""}'
-	axes.annotate(text, x[largest] + offsets[piece, 0] * aside[piece], color=_colours[quantity], zorder=6, clip_on=True, path_effects=[matplotlib.patheffects.withStroke(linewidth=3, foreground='white')])
+	isWhole = len(getattr(line, 'hoopForces', ())) and 'hoop' not in quantity  # force of a shell around the whole circle
+	text = f'{values[largest] / 1e3:.3g} kN{" m" if "oment" in quantity else ""}{"" if isWhole else "/m"}'
+	way = offsets[piece, 0] * aside[piece]
+	side = 'left' if way[0] >= 0 else 'right'  # the text stands beyond the diagram, not across the line
+	axes.annotate(
+	        text, x[largest] + way, (4 if side == 'left' else -4, 0), textcoords='offset points', ha=side, color='black', zorder=6, clip_on=True,
+	        path_effects=[matplotlib.patheffects.withStroke(linewidth=3, foreground='white')]
+	)
 	return axes
