@@ -33,6 +33,6 @@ for level in np.arange(1.5, options.depth + 1e-9, h / 2):
 		compared(f'largest moment, dug out {level:g} m, cells of {h:g} m', max(wall.moments) / 1e3, byHand / 1e3, 'Blum 1931', 'kN m')
 		figure, axes = plt.subplots(1, 3, figsize=(14, 5.2), layout='constrained')
 		for ax, (quantity, title) in zip(axes, dict(axialForce='normal force', shearForce='shear force', moment='bending moment').items()):
-			mpm.diagram(wall, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-4, 4), ylim=(-8, 0.5), title=title)
+			mpm.diagram(wall, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-6, 6), ylim=(-8, 0.5), title=title)
 		figure.savefig(f'{options.out}/sheet_pile.png')
 print(f'by Blum it fails at {blum:.3f} m')
