@@ -153,7 +153,10 @@ def draw():
 	figure, (picture, curve) = plt.subplots(1, 2, figsize=(10, 6), layout='constrained')
 	mpm.plot('plasticStrain', ax=picture, loads=False, range=(0, 0.5 if isPile else 2))
 	picture.fill(*np.transpose(outline - np.array([0, found[-1][0]])), facecolor='0.8', edgecolor='0.3', zorder=3)
-	if picture.get_legend(): picture.legend(loc='lower right', fontsize='small')  # below the cone, where the clay is at rest
+	if picture.get_legend():  # of strongly stretched points: below the body, where the clay is at rest
+		handles, names = picture.get_legend_handles_labels()
+		names = [name.replace('dots: ', '').replace(' strongly', '\nstrongly').replace(', more', ',\nmore') for name in names]
+		picture.legend(handles, names, loc='lower right', fontsize='small', frameon=False, handletextpad=0.1, borderaxespad=0.1)
 	picture.set(title=' ', xlim=(0, 5 * R), ylim=(low - 2 * R, max(y for _, y in line) + (-3.5 if isBar else 0.5) * R))
 	for name, values in curves.items(): curve.plot(values, s, label=name)
 	curve.axvline(exact, color='k', linewidth=0.8, label=source)

@@ -478,6 +478,30 @@ if int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0:
 	assert together[4] > 0 == alone[4]
 
 
+def test_two_processes_with_divided_points_in_space(yade):
+	"""A rough block on another one in 3D: force and displacements are those of one process."""
+	absence = yade("import json\nfrom yade.mpm.library import engine\nprint(json.dumps(engine.multigridAbsence()))").result
+	if absence: pytest.skip('without PETSc: ' + absence)
+	script = scene + '''
+import os, sys
+O.materials.append(MpmElasticMat(young=1e6, poisson=0.3, density=2000, label='soil'))
+grid = MpmGrid(cellSize=0.25, dim=3)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (1.5, 0.5, 0.375)), grid, 2, 'soil', body='low'))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0.25, 0, 0.375), (1.25, 0.5, 0.75)), grid, 2, 'soil', body='up'))
+contact = MpmBodyContact(between=('up', 'low'), friction=0.3)
+solver = MpmImplicitEngine(grid=grid, gravity=(2, 0, -10), boundaries=[MpmBoundary(max=(inf, inf, 0), fix='xyz', body='low')], contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0, distributed=len(sys.argv) > 1)
+O.engines, O.dt = [solver], 1 / 2
+O.run(2, wait=True)
+points = mpm.arrays()
+if int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0: json.dump([points['pos'][np.lexsort(points['pos0'].T)].tolist(), list(contact.force), contact.touching], open('found.json', 'w'))
+'''
+	found = lambda *setting, **how: (yade(script, *setting, **how), json.loads((yade.folder / 'found.json').read_text()))[1]
+	alone, together = found(), found('divided', processes=2)
+	assert np.abs(np.array(together[0]) - alone[0]).max() < 1e-9
+	assert np.allclose(together[1], alone[1], rtol=1e-6, atol=1e-4) and together[2] == alone[2] > 0
+	assert abs(alone[1][0]) == pytest.approx(0.2 * alone[1][2], rel=1e-3), 'it does not slip, and bears all of the weight'
+
+
 def test_regions_of_one_name_are_one_body(yade):
 	"""Without a surface where they have a face in common; in the plane also parts of one."""
 	inPlane, inSpace = yade(scene + '''
