@@ -42,14 +42,13 @@ for e in 0.85, 0.6:
 	print(f'liquefaction: e = {e}: the base gave {base:.1f} J, weight {load - water:.1f} J, sand {-elastic:.1f} J of its elastic energy; lost in sand {plastic:.1f} J, in flow {-water:.1f} J, '
 	      f'in the ghost {ghost:.1f} J, by the scheme {scheme:.1f} J; in motion {kinetic:.2f} J; balance {imbalance:.1f} J')
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2))
+figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.2), layout='constrained')
 for e, rows in histories.items():
 	for column, style, where in (1, '-', 'base'), (2, '--', 'half way up'):
 		left.plot(rows[:, 0], rows[:, column], style, color='C0' if e == 0.85 else 'C1', label=f'e = {e}, {where}')
 rows = histories[0.85]
 for name, column, sign in ('given by the base', 3, 1), ('elastic energy let go', 6, -1), ('lost in sand', 7, 1), ('lost in flow', 5, -1), ('lost in the ghost', 8, 1):
 	right.plot(rows[:, 0], sign * (rows[:, column] - rows[0, column]), label=name)
-left.set(xlabel='time [s]', ylabel='excess pressure over first effective stress [-]'), right.set(xlabel='time [s]', ylabel='energy [J], e = 0.85')
-left.legend(), right.legend()
-figure.tight_layout()
+left.set(xlabel='time [s]', ylabel='excess pressure over\nfirst effective stress [-]'), right.set(xlabel='time [s]', ylabel='energy [J], e = 0.85')
+for axes in left, right: axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.15), ncols=2, frameon=False)
 figure.savefig(f'{out}/liquefaction.png', dpi=110)
