@@ -118,14 +118,14 @@ def cells():
 
 
 def moving(steps, **engine):
-	"""A plate moves into soil that shakes, with an edge that absorbs waves."""
-	grid = block()
+	"""A plate moves into soil that shakes, with an edge that absorbs waves: in the middle of a cell, in which it may bulge."""
+	grid = block(origin=(-.25, 0, 0))
 	plate(2, sense=-1, vel=(0, -.5, 0))
 	shaking = MpmBaseMotion(history=[(0, 0), (.01, .2), (.03, -.2), (.05, 0)], direction=(1, 0, 0))
 	O.engines = [
 	        MpmDynamicEngine(
 	                grid=grid, gravity=(0, -9.81, 0), verbosity=0, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy', motion=shaking)],
-	                water=[MpmWater(level=1)], contacts=[MpmContact(mask=2, friction=radians(20))], absorbing=[MpmAbsorbingBoundary(min=(4, -inf, -inf))],
+	                water=[MpmWater(level=1)], contacts=[MpmContact(mask=2, friction=radians(20))], absorbing=[MpmAbsorbingBoundary(min=(4.25, -inf, -inf))],
 	                **engine)]
 	O.dt = .02 / steps
 	solves = 0
