@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/parting_lines.hpp"
 #include "core/grid/nearness.hpp"
+#include "core/structures/from_line.hpp"
 
 namespace gimpm {
 namespace {
@@ -94,31 +95,6 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 	return nodes;
 }
 
-/// A position seen from a line.
-struct FromLine {
-	double away     = std::numeric_limits<double>::infinity();
-	double left     = 0;     ///< to the left of the nearest piece; of two that are as near, which meet in a corner, of both
-	bool   isBeyond = false; ///< one of the ends
-};
-
-FromLine fromLine(const std::vector<Vec<2>>& line, const Vec<2>& position)
-{
-	const int last = int(line.size()) - 2;
-	FromLine  at;
-	for (int i = 0; i <= last; ++i) {
-		const Vec<2> along = line[i + 1] - line[i], from = position - line[i];
-		const double part = from.dot(along) / along.squaredNorm();
-		const double away = (from - std::clamp(part, 0., 1.) * along).norm();
-		const double left = (along[0] * from[1] - along[1] * from[0]) / along.norm();
-		const double same = 1e-9 * along.norm();
-		if (away > at.away + same) continue;
-		at.left     = away < at.away - same ? left : at.left + left;
-		at.isBeyond = (i == 0 && part < 0) || (i == last && part > 1);
-		at.away     = std::min(at.away, away);
-	}
-	return at;
-}
-
 /// The layer of a position near nodes of their own.
 class LayerAt {
 public:
@@ -135,7 +111,7 @@ public:
 	{
 		if ((position - low_).minCoeff() < 0 || (high_ - position).minCoeff() < 0) return 0;
 		for (const auto& line : lines_)
-			if (isNearOwn(position, line.layer) && fromLine(line.positions, position).left < 0) return line.layer;
+			if (isNearOwn(position, line.layer) && fromLine(line.positions, position).side < 0) return line.layer;
 		return 0;
 	}
 
@@ -162,8 +138,8 @@ private:
 int sideOf(const Beam& beam, const Vec<2>& position, double reach)
 {
 	const FromLine at = fromLine(beam.positions, position);
-	if (at.away > reach || (at.isBeyond && !beam.isClosed) || at.left == 0) return 0;
-	return at.left > 0 ? 1 : -1;
+	if (at.away > reach || at.isBeyond || at.side == 0) return 0;
+	return at.side > 0 ? 1 : -1;
 }
 
 bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)
@@ -189,7 +165,7 @@ bool BesideBeam::operator()(int p) const
 {
 	const int layer = cloud_.layerOf(p);
 	if (layer != 0 && (side_ > 0 || layer != beam_.layer)) return false;
-	return side_ * fromLine(beam_.positions, cloud_.position[p]).left > 0;
+	return side_ * fromLine(beam_.positions, cloud_.position[p]).side > 0;
 }
 
 std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& positions, double cellSize)

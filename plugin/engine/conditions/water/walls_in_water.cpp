@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/water/walls_in_water.hpp"
+#include "core/structures/from_line.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 
@@ -10,28 +11,6 @@ namespace {
 
 	// Distance [cells] from a wall within which nodes and points are on one of its sides, and beyond its ends.
 	constexpr Real nearWall = 2.5, beyondEnds = 1;
-
-	// Closest-point projection of a place on a line.
-	struct Projection {
-		Vec2 foot, normal; // to the left
-		Real left     = std::numeric_limits<Real>::infinity();
-		bool isBeyond = false; // one of the ends
-	};
-
-	Projection projected(const vector<Vec2>& line, const Vec2& place)
-	{
-		const bool isClosed = line.front() == line.back();
-		Projection nearest;
-		for (size_t i = 0; i + 1 < line.size(); ++i) {
-			const Vec2 along = line[i + 1] - line[i];
-			const Real part  = (place - line[i]).dot(along) / along.squaredNorm();
-			const Vec2 foot  = line[i] + std::clamp(part, Real(0), Real(1)) * along;
-			if (i > 0 && (place - foot).norm() >= (place - nearest.foot).norm()) continue;
-			const Vec2 normal = Vec2(-along[1], along[0]).normalized();
-			nearest = { foot, normal, normal.dot(place - line[i]), !isClosed && ((i == 0 && part < 0) || (i + 2 == line.size() && part > 1)) };
-		}
-		return nearest;
-	}
 
 	// A line that goes on beyond its ends.
 	vector<Vec2> longer(vector<Vec2> line, Real by)
@@ -62,7 +41,7 @@ namespace {
 		for (int x = first[0]; x <= last[0]; ++x)
 			for (int y = first[1]; y <= last[1]; ++y) {
 				const gimpm::Index<2> node(x, y);
-				const Projection      at = projected(line, grid.nodePosition(node));
+				const gimpm::FromLine at = gimpm::fromLine(line, grid.nodePosition(node));
 				if (at.isBeyond || std::abs(at.left) > nearWall * grid.cellSize) continue;
 				for (const int side : { 0, 1 }) {
 					const Vec2 inwards = (side == 0 ? 1 : -1) * at.normal;
@@ -120,10 +99,10 @@ int SideOfWalls::operator()(const Vec2& place) const
 	int  found   = 0;
 	Real nearest = reach;
 	for (size_t w = 0; w < lines.size(); ++w) {
-		const Projection at = projected(lines[w], place);
-		if (at.isBeyond || (place - at.foot).norm() > nearest) continue;
-		nearest = (place - at.foot).norm();
-		found   = int(2 * w) + (at.left > 0 ? 1 : 2);
+		const gimpm::FromLine at = gimpm::fromLine(lines[w], place);
+		if (at.isBeyond || at.away > nearest) continue;
+		nearest = at.away;
+		found   = int(2 * w) + (at.side > 0 ? 1 : 2);
 	}
 	return found;
 }
