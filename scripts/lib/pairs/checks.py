@@ -21,6 +21,7 @@ log.setLevel('Default', log.ERROR)  # many scenes are warned of, for gravity tha
 # Operations that are exact in binary numbers, and sum nothing in another order, keep the bits: see
 # differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
+roundOff = 1e-14
 
 
 class Run:
@@ -173,9 +174,16 @@ def checkKind(name, seed):
 	found = [] if run.error else balanceOfKind(run)
 	for copy, view in views(first.dim, ['axisymmetric'] if first.isRing else [], random.Random(seed), first.cell).items():
 		if copy not in ('two threads', *first.without): found += differences(run, Run(scene(), view), copy)
+	if found and not run.error: found += sensitivity(run, Run(scene(), View(first.dim, first.isRing, heavier=roundOff)))
 	for copy, admitted in first.admitted.items():
 		if copy not in first.without and not run.error: found += apart(run, Run(scene(**{copy: 2}), View(first.dim, first.isRing)), copy, admitted)
 	return dict(outcome='wrong' if found else 'stops' if run.error else 'right', findings=found, error=run.error)
+
+
+def sensitivity(run, heavier):
+	"""Differences that round-off of gravity makes, as sentences: none where the position of the scene decides, as by a tie between two cells."""
+	name = f'gravity times 1 + {roundOff:.0e}'
+	return differences(run, heavier, name) or [f'{name}: no difference']
 
 
 def balanceOfKind(run):

@@ -122,7 +122,7 @@ class Text(Statements):
 		s, v = self.scene, self.view
 		values = dict(self.engine) | settings
 		acts = s.gravity if hasattr(s, 'gravity') else (0, -gravity, 0)
-		values |= dict(grid='grid', gravity=v.vector(acts, v.L / v.T**2 if s.isDynamic else v.S / (v.D * v.L)), boundaries=f'[{", ".join(self.boundaries)}]', verbosity=0, ompThreads=v.threads)
+		values |= dict(grid='grid', gravity=v.vector(acts, (1 + v.heavier) * (v.L / v.T**2 if s.isDynamic else v.S / (v.D * v.L))), boundaries=f'[{", ".join(self.boundaries)}]', verbosity=0, ompThreads=v.threads)
 		values['newton'] = 'MpmNewton(tolerance=1e-10, minStep=1/16)'
 		values['loadCurve'] = v.curve(loadCurve or [(0., 0.), (s.end, 1.)])
 		if gravityCurve: values['gravityCurve'] = v.curve(gravityCurve)

@@ -15,10 +15,11 @@ class View:
 	:param turn: for each axis of the scene, the axis along which it lies and the sign
 	:param shift: [m of the scene]
 	:param scales: exponents of two of length, stress, density; the sum of the last two must be even, so that times scale by a power of two
+	:param heavier: part by which gravity is larger
 	"""
 
-	def __init__(self, dim, isRing, turn=((0, 1), (1, 1), (2, 1)), shift=(0, 0, 0), scales=(0, 0, 0), order=None, threads=1, restart=False):
-		self.dim, self.isRing, self.shift, self.order, self.threads, self.restart = dim, isRing, np.array(shift, float), order, threads, restart
+	def __init__(self, dim, isRing, turn=((0, 1), (1, 1), (2, 1)), shift=(0, 0, 0), scales=(0, 0, 0), order=None, threads=1, restart=False, heavier=0.):
+		self.dim, self.isRing, self.shift, self.order, self.threads, self.restart, self.heavier = dim, isRing, np.array(shift, float), order, threads, restart, heavier
 		self.turn = np.zeros((3, 3))
 		for axis, (to, sign) in enumerate(turn):
 			self.turn[to, axis] = sign
