@@ -16,9 +16,8 @@ Scenes of a kind (scripts/lib/pairs/kinds.py: rigid bodies, bodies of points, wa
 the bound of the kind, and with two more: half the cell size and half the time step, whose means of displacements, stresses, forces and energies may differ by the bounds of the
 kind. A line of a beam is drawn backwards with the bodies in another order. Other units are compared to 1e-9 for NorSand, which takes logarithms of pressures, for beams, whose
 displacements and rotations have no common scale, and for facets in the plane. Forces of static scenes balance to 1e-8, the energy of those in time to 2 to 10 percent where it is
-known. Where copies differ, the findings say what gravity that is larger by 1e-14 changes: as much where round-off
-decides, nothing where the position does. Left out as known: mirrored and turned bodies of points in 3D (triangles of the surface), bodies of one cell between others, inclined beams that end in the soil, energy of
-soils whose elasticity is not Hencky's.
+known. Where copies differ, the findings say what gravity that is larger by 1e-14 changes: as much where round-off decides, nothing where the position does. Left out as known: mirrored
+and turned bodies of points in 3D (triangles of the surface), bodies of one cell between others, inclined beams that end in the soil, energy of soils whose elasticity is not Hencky's.
 
 All outcomes are in results/pairs.csv; scenes with findings are tried again. Ends with 1 if there are findings.
 """

@@ -111,7 +111,9 @@ print(json.dumps(checkKind('water', 1)))
 	)
 	right, wrong = (json.loads(line) for line in Yade(tmp_path)(own).stdout.splitlines() if line.startswith('{'))
 	assert right['outcome'] == 'right' and right['error'] is None
-	assert wrong['outcome'] == 'wrong' and all(line.startswith('mirrored: ') for line in wrong['findings']) and any('stress' in line for line in wrong['findings']), wrong
+	*found, sensitivity = wrong['findings']
+	assert wrong['outcome'] == 'wrong' and all(line.startswith('mirrored: ') for line in found) and any('stress' in line for line in found), wrong
+	assert sensitivity == 'gravity times 1 + 1e-14: no difference'
 
 
 def test_a_scene_as_a_script_of_its_own(yade):
