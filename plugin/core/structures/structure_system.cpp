@@ -397,8 +397,8 @@ template <int Dim> double StructureSystem<Dim>::farthestMove(const Eigen::Vector
 
 /// Solves by Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then
 /// far down, while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure
-/// for it, and it would end anywhere; by secants of the springs the energy then only goes down, and Newton's method ends
-/// what they begin.
+/// for it, and it would end anywhere; by secants of the springs the energy then only goes down, and Newton's method
+/// ends what they begin.
 template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const
 {
 	constexpr int newtonSteps = 25, secantSteps = 40, rounds = 5;

@@ -45,8 +45,8 @@ public:
 	/// Solution of the structure's equilibrium, from a first guess of its own unknowns; all zero if that is empty.
 	Solution solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const;
 
-	/// Displacement of a vertex against the soil around it, of two sides the one that it moves less against [m]; 0: it
-	/// has none.
+	/// Displacement of a vertex against the soil around it, of two sides the one that it moves less
+	/// against [m]; 0: it has none.
 	double moveInSoil(int vertex, const Eigen::VectorXd& x) const;
 
 	/// On the soil at equilibrium: the force by which the structure resists its displacements, and the derivative.
