@@ -34,5 +34,5 @@ print(f'trough {trough:.4f} m2, volume loss {lost:.4f} m2 ({100 * (trough / lost
 compared(f'volume of the trough, cells of {h:g} m, nu = {options.poisson:g}', trough, lost, 'volume loss', 'm2')
 figure, axes = plt.subplots(1, 3, figsize=(14, 5.2), layout='constrained')
 for ax, (quantity, title) in zip(axes, dict(axialForce='normal force', shearForce='shear force', moment='moment').items()):
-	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-3, 9), ylim=(-12, 0.2), title=title)
+	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-6, 9), ylim=(-12, 0.2), title=title)
 figure.savefig(f'{options.out}/lined_tunnel.png')

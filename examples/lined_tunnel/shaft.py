@@ -32,5 +32,5 @@ print(f'hoop force at half of what is dug {found / 1e3:.1f} kN/m, of a tube {exp
 compared(f'hoop force at half of what is dug, cells of {h:g} m', found, expected, 'tube in a pressed plane', 'N/m')
 figure, axes = plt.subplots(1, 2, figsize=(9, 5), layout='constrained')
 for ax, (quantity, title) in zip(axes, dict(hoopForce='hoop force', moment='moment').items()):
-	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-4, 10), ylim=(-20, 0.5), title=title)
+	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax, loads=False), 1.5).set(xlim=(-7, 10), ylim=(-20, 0.5), title=title)
 figure.savefig(f'{options.out}/shaft.png')
