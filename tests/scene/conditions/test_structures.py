@@ -698,21 +698,3 @@ for dug in 2.5, 4.5, 5.5, 6.25:
 	stages = dict(part.split(' m\n', 1) for part in run.stderr.split('dug out: ')[1:])
 	assert {dug: 'a wall may stand on its tip' in told for dug, told in stages.items()} == {'2.5': False, '4.5': False, '5.5': False, '6.25': True}
 	assert 'the vertex of loads[0] at (' in stages['6.25']
-
-
-def test_a_smooth_wall_does_not_leave_the_ground_along_itself(yade):
-	"""Nothing holds it along itself: it once ended 9 m below its place."""
-	outcome = outcomesOf(yade.folder, block + '''
-def lean():
-	O.reset()
-	O.materials.append(MpmMohrCoulombMat(density=2000, cohesion=6e3, frictionAngle=.5, dilationAngle=.1, young=1e6, poisson=.3, label='soil'))
-	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (6, 0), (6, 3), (0, 3)]), MpmGrid(cellSize=.5), 2, 'soil'))
-	wall = MpmBeam(line=[(1.8645641239037907, 3), (2.0411199336369785, 1.03)], axialStiffness=1e7, bendingStiffness=1e6, adhesion=0)
-	load = MpmTraction(surface=[(1.8545641239037907, 3), (0, 3)], pressure=6e3)
-	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(6, -inf, -inf), fix='x')]
-	O.engines = [MpmImplicitEngine(grid=MpmGrid(cellSize=.5), gravity=(0, -10, 0), boundaries=held, loads=[wall, load], gravityCurve=[(0, 0), (.5, 1)], newton=MpmNewton(minStep=1/4), verbosity=0)]
-	O.dt = .25
-	O.run(3, wait=True)
-''', ['lean()'])
-	kind, sentence = outcome['lean()']
-	assert kind == 'RuntimeError' and 'in the soil around it, more than a cell' in sentence and 'adhesion' in sentence, sentence
