@@ -93,13 +93,13 @@ def parts():
 	        'ghost on all faces': dict(where='boundary', memory=0),
 	        'ghost on all faces, memory 1': dict(where='boundary'),
 	        'aggregates without memory': dict(memory=0),
-	        'ghost times .1': dict(factor=1e-3),
-	        'ghost times .01': dict(factor=1e-4),
+	        'ghost times 0.1': dict(factor=1e-3),
+	        'ghost times 0.01': dict(factor=1e-4),
 	        '10 steps': dict(steps=10),
 	        '160 steps': dict(steps=160),
 	        'tolerance 1e-9': dict(tolerance=1e-9),
 	        'E times 10': dict(stiff=1e5),
-	        'settlement .01 B': dict(settlement=1e-2)}
+	        'settlement 0.01 B': dict(settlement=1e-2)}
 	for name, change in changes.items():
 		yield 'strip.strip', (name, '', 'B/17'), dict(phi=20) | change
 
@@ -108,8 +108,8 @@ def steps():
 	"""The same load in more and fewer steps."""
 	ghosts = {
 	        'ghost as for sand': {},
-	        'ghost times .1': dict(factor=1e-3),
-	        'ghost times .01': dict(factor=1e-4),
+	        'ghost times 0.1': dict(factor=1e-3),
+	        'ghost times 0.01': dict(factor=1e-4),
 	        'all faces, memory 1': dict(where='boundary'),
 	        'all faces (default)': dict(where='boundary', memory=0)}
 	for name, ghost in ghosts.items():
