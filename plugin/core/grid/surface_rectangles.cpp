@@ -44,8 +44,8 @@ std::pair<std::vector<Rectangle>, std::vector<Triangle>> paired(const Surface<3>
 		    && (x[other->second[0]] + x[(*half)[0]] - x[(*half)[1]] - x[(*half)[2]]).norm() < same * (x[(*half)[1]] - x[(*half)[2]]).norm()) {
 			result.first.push_back({ (*half)[0], (*half)[1], other->second[0], (*half)[2] });
 			halves.erase(other);
-		} else
-			halves[{ (*half)[1], (*half)[2] }] = *half;
+		} else if (!halves.emplace(std::pair((*half)[1], (*half)[2]), *half).second)
+			result.second.push_back(*half); // of a surface that is no manifold
 	}
 	for (const auto& [diagonal, half] : halves)
 		result.second.push_back(half);

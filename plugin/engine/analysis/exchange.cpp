@@ -261,6 +261,16 @@ void requireBody(int body, int count, const string& where)
 	        + " bodies of points: the engine needs the grid that mpm.fill was given.");
 }
 
+template <int Dim> gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
+{
+	gimpm::PointCloud<Dim> centres;
+	for (const MaterialPoint& point : points)
+		if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>();
+		    x.allFinite() && ((x - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit)
+			centres.position.push_back(x);
+	return centres;
+}
+
 template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division& division)
 {
 	vector<gimpm::Key> cells;
@@ -333,6 +343,7 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);                                                  \
 	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division&);                               \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
 	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \

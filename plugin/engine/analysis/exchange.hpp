@@ -11,6 +11,9 @@ namespace yade {
 // Refuses a number of a body of points that the grid does not have, at `where`.
 void requireBody(int body, int count, const string& where);
 
+// Centres of points, without those that are off the grid, which a step refuses.
+template <int Dim> gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);
+
 // Cells with the centre of a point, in a row; of a division, those of all processes.
 template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division& = {});
 

@@ -240,12 +240,7 @@ template <int Dim> void MpmImplicitEngine::askFunctions(Agreement& agreement)
 			grid->requireAdmissible();
 			lattice = grid->lattice<Dim>();
 			updateMaterialPoints(points, *scene, mask);
-			gimpm::PointCloud<Dim> middles;
-			for (const MaterialPoint& point : points)
-				if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>(); // others are refused in a moment
-				    x.allFinite() && ((x - lattice.origin) / lattice.cellSize).cwiseAbs().maxCoeff() < lattice.indexLimit)
-					middles.position.push_back(x);
-			cells = cellsOf(middles, lattice);
+			cells = cellsOf(centresOnGrid(points, lattice), lattice);
 		}
 		if (distributed) {
 			agreement.meet(*this);

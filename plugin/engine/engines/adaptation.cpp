@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/adaptation.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/grid/cells_by_size.hpp"
+#include "engine/analysis/cells_by_size.hpp"
 #include "yade_api/scene.hpp"
 #include <numeric>
 
@@ -41,8 +41,9 @@ string adapt(const Analysis& analysis, const Scene& scene, const vector<Material
 		int                  halvings   = adaptation.halvings;
 		Real                 unknowns   = 0;
 		for (; halvings > 0; --halvings) {
-			grid.adapted = boxes;
-			addBoxes(grid.adapted, analysis, scene, halvings);
+			Boxes tried = boxes;
+			addBoxes(tried, analysis, scene, halvings);
+			grid.adapted = std::move(tried);
 			if (!std::isfinite(adaptation.maxUnknowns)) break;
 			unknowns = unknownsOf(grid, points);
 			if (unknowns <= adaptation.maxUnknowns) break;

@@ -2,7 +2,7 @@
 #include "engine/output/report.hpp"
 #include "core/grid/coverage.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/grid/cells_by_size.hpp"
+#include "engine/analysis/cells_by_size.hpp"
 #include "engine/messages/failures.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/value_lock.hpp"
@@ -37,7 +37,7 @@ namespace {
 		return gimpm::coverage<Dim>(centres, halfLengths).mean;
 	}
 
-	py::object cellsOf(const Analysis& engine)
+	py::object numbersOfCells(const Analysis& engine)
 	{
 		py::dict cells;
 		for (const auto& [size, number] : cellsBySize(*engine.grid, materialPoints(*engine.ownScene(), engine.mask)))
@@ -69,7 +69,7 @@ namespace {
 		  "'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.",
 		  [](E e) { return py::object(secondsByPhase(e)); } },
 		{ "points", "Material points in the run.", [](E e) { return py::object(e.pointsOfRun); } },
-		{ "cells", "Cells in which middles of points lie, by edge length [m], a dict. Of the points of this process.", cellsOf },
+		{ "cells", "Cells in which middles of points lie, by edge length [m], a dict. Of the points of this process.", numbersOfCells },
 		{ "nodes", "Grid nodes of the last load step that was tried.", [](E e) { return py::object(e.last.nodes); } },
 		{ "cgFailure", "Why an iterative solve of it was left to the direct solver, or multigrid was not set up; empty if neither was so.",
 		  [](E e) { return py::object(e.last.conjugateGradients.reason); } },

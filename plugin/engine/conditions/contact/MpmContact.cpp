@@ -160,21 +160,17 @@ vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
 namespace {
 	template <int Dim> vector<Vector3r> edgesIn(const vector<shared_ptr<Body>>& bodies, const Analysis& analysis, const Scene& scene, Real spacing)
 	{
-		const auto       lattice = analysis.grid->lattice<Dim>();
-		const Real       ahead   = scene.dt * analysis.period();
+		const auto       lattice  = analysis.grid->lattice<Dim>();
+		const Real       duration = scene.dt * analysis.period();
 		vector<Vector3r> places;
-		for (const Real time : { Real(0), ahead }) {
+		for (const Real time : { Real(0), duration }) {
 			vector<gimpm::RigidBody<Dim>> rigid;
 			for (const auto& body : bodies) {
 				if (!nodesOf(*body, scene).empty()) continue; // nets have no edges
-				const State& state = *body->state;
-				const Real   turn  = state.angVel.norm() * time;
-				Se3r         pose  = poseOf(state);
-				auto         found = rigidBody<Dim>(*body, pose, lattice);
+				const Se3r now   = poseOf(*body->state);
+				auto       found = rigidBody<Dim>(*body, now, lattice);
 				if (!found) continue;
-				pose.position += state.vel * time;
-				if (turn > 0) pose.orientation = Quaternionr(Eigen::AngleAxis<Real>(turn, state.angVel.normalized())) * pose.orientation;
-				found->begin = poseOf<Dim>(*body, poseOf(state), pose);
+				found->begin = poseOf<Dim>(*body, now, ahead(*body->state, now, time));
 				rigid.push_back(*found);
 			}
 			for (const auto& x : gimpm::edgesOf(rigid, spacing, lattice.axisymmetric)) {

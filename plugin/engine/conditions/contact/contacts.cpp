@@ -14,14 +14,6 @@ namespace yade {
 
 namespace {
 
-	// Pose of a body that has moved with its velocities for some time.
-	Se3r ahead(const State& state, const Se3r& from, Real time)
-	{
-		const Real        angle = state.angVel.norm() * time;
-		const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
-		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
-	}
-
 	// The same of one that the engine moves.
 	Se3r moved(const Body& body, const Se3r& from, Real time)
 	{

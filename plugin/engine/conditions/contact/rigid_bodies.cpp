@@ -125,6 +125,13 @@ namespace {
 	}
 }
 
+Se3r ahead(const State& state, const Se3r& from, Real time)
+{
+	const Real        angle = state.angVel.norm() * time;
+	const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
+	return { from.position + time * state.vel, (turn * from.orientation).normalized() };
+}
+
 template <int Dim> Se3r unturned(const Body& body, const Se3r& at, const gimpm::Grid<Dim>& grid)
 {
 	if (!dynamic_cast<const Sphere*>(body.shape.get()) || grid.axisymmetric) return at;

@@ -13,6 +13,9 @@ inline Se3r inverse(const Se3r& a) { return { a.orientation.conjugate() * -a.pos
 
 inline Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
+// Pose of a body that has moved with its velocities for some time.
+Se3r ahead(const State&, const Se3r& from, Real time);
+
 // Part of the way from one pose to another.
 inline Se3r between(const Se3r& a, const Se3r& b, Real part)
 {
