@@ -146,7 +146,7 @@ def text(found):
 
 **Never worth it**
 
-- `basis='mpm'`: {mpm[0]} times the error for {mpm[1]} times the time (among the best settings in {words[len(linear)]} of five scenes, at {percent(linear[0])}). `ghost.factor`: 100 has {stiff[0]} times the error, 0 fails in {words[sum(bool(failure) for *_, failure in unstable.values())]} of {words[len(unstable)]} scenes.
+- `basis='mpm'`: {mpm[0]} times the error for {mpm[1]} times the time (among the best in {words[len(linear)]} of five scenes, at {percent(linear[0])}). `ghost.factor`: 100 has {stiff[0]} times the error, 0 fails in {words[sum(bool(failure) for *_, failure in unstable.values())]} of {words[len(unstable)]}.
 - `tolerance=1e-9`: {fine[0]} times the error of 1e-6 for {fine[1]} times the time; 1e-4: {loose} times. A contact's `stiffness` of 1000: {contact[0]} times the error of 100 for {contact[1]} times the time.
 - 3 x 3 points a cell and more where soil yields or touches: {points[0]} times the error for {points[1]} times the time. (Thin bodies that bend gain by them, and bodies pressed or drawn far.)
 '''
