@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/critical_step.hpp"
+#include "core/grid/refinement.hpp"
 #include "core/terms/inertia/absorbing.hpp"
 #include <algorithm>
 
@@ -27,7 +28,7 @@ template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>& cloud, const Mo
 		const double stress   = cloud.volumeRatio(p) * cloud.stress[p].full().norm();
 		wave                  = std::max(wave, (waveModuli(model.materials, cloud, int(p)).pressure + 2 * stress) / material.density);
 		bar                   = std::max(bar, young / material.density);
-		spacing               = std::max(spacing, 2 * cloud.halfSize[p].maxCoeff() / model.grid.cellSize);
+		spacing               = std::max(spacing, cloud.halfSize[p].maxCoeff() / largestHalf(model.grid, cloud.position[p]));
 	}
 	return { wave, bar, spacing };
 }

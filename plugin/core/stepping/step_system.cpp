@@ -164,7 +164,9 @@ template <int Dim> void StepSystem<Dim>::makeTerms()
 		if (isCoupled()) addCoupledBefore(resistance);
 		ownedNodes().complete(resistance);
 		complete(before);
-		return Eigen::VectorXd(before - resistance);
+		Eigen::VectorXd imbalance = before - resistance;
+		basis.affineConstraints.template condense<Dim>(imbalance);
+		return imbalance;
 	};
 	for (const auto& make : model.coupledTerms) { // inertia knows their imbalance
 		auto term = make(context(), state(Eigen::VectorXd::Zero(map.size())));

@@ -111,9 +111,7 @@ static void requireEqualCells(const Analysis& engine)
 {
 	if (!engine.grid || engine.grid->hasEqualCells()) return;
 	string what;
-	if (engine.isDynamic()) what = engine.className() + ", as inertia";
-	else if (engine.newton->linearSolver == "amg")
-		what = "MpmNewton.linearSolver = 'amg'";
+	if (engine.newton->linearSolver == "amg") what = "MpmNewton.linearSolver = 'amg'";
 	else if (processes()->size() > 1)
 		what = "several processes";
 	for (const Listed& listed : engine.conditions())

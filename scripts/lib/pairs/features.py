@@ -19,11 +19,9 @@ dynamic = schemes[1:]
 refused = {('axisymmetric', 'period'): ['axisymmetric', 'period'], ('period', 'refinement'): ['period', 'refinements'], ('static', 'absorbing'): ['MpmImplicitEngine', 'absorbing', 'MpmDynamicEngine'], ('static', 'baseMotion'): ['motion', 'MpmDynamicEngine']}
 refused |= {(shape, 'period'): ['periodic grid', 'Walls'] for shape in shapes if shape != 'plate'}
 refused[('freeBody', 'period')] = ['periodic grid', 'Walls']
-refused |= {(scheme, 'refinement'): ['refinements', 'inertia'] for scheme in dynamic}
 refused |= {(scheme, stage): ['inertia'] for scheme in dynamic for stage in ('place', 'excavate')}
-refused |= {(water, 'refinement'): ['refinements', 'water'] for water in waters}
+refused[('refinement', 'waterFunction')] = ['refinements', 'water', 'function']
 refused |= {(wall, 'refinement'): ['refinements', 'surface'] for wall in walls}
-refused |= {('refinement', shaking): ['refinements', 'inertia'] for shaking in ('absorbing', 'baseMotion')}
 refused |= {(stage, shaking): ['inertia'] for stage in ('place', 'excavate') for shaking in ('absorbing', 'baseMotion')}
 refused |= {(geometry, 'freeBody'): ['free to move'] for geometry in ('plane', 'axisymmetric')}
 

@@ -10,24 +10,53 @@
 namespace gimpm {
 namespace {
 
-/// Node n of a face of a cell, as if the grid were not periodic.
-template <int Dim> Index<Dim> nodeOfFace(Index<Dim> cell, int axis, bool isUpper, int n)
+/// Node n of a face of a leaf, as if the grid were not periodic.
+template <int Dim> Index<Dim> nodeOfFace(Key leaf, int axis, bool isUpper, int n)
 {
-	cell[axis] += isUpper;
+	const int  level = Grid<Dim>::level(leaf);
+	Index<Dim> node  = Grid<Dim>::index(leaf);
+	node[axis] += isUpper << level;
 	for (int a = 0, bit = 0; a < Dim; ++a)
-		if (a != axis) cell[a] += n >> bit++ & 1;
-	return cell;
+		if (a != axis) node[a] += (n >> bit++ & 1) << level;
+	return node;
 }
 
-template <int Dim> bool holdsFace(const ConstrainedBox<Dim>& box, const Index<Dim>& cell, int axis, bool isUpper)
+template <int Dim> bool holdsFace(const ConstrainedBox<Dim>& box, Key leaf, int axis, bool isUpper)
 {
 	for (int n = 0; n < 1 << (Dim - 1); ++n)
-		if (!box.contains(nodeOfFace<Dim>(cell, axis, isUpper, n))) return false;
+		if (!box.contains(nodeOfFace<Dim>(leaf, axis, isUpper, n))) return false;
 	return true;
 }
 
-/// Material in a cell: its volume, and impedances rho c times that.
-struct FilledCell {
+/// True if a side of a box lies between the nodes of a large leaf that it reaches.
+template <int Dim> bool cutsLeaf(const ConstrainedBox<Dim>& box, Key leaf)
+{
+	const Index<Dim> low = Grid<Dim>::index(leaf), high = low + Index<Dim>::Constant(1 << Grid<Dim>::level(leaf));
+	if ((low.array() > box.upper.array()).any() || (high.array() < box.lower.array()).any()) return false;
+	const auto isInside = [&](const Index<Dim>& side) { return (side.array() > low.array() && side.array() < high.array()).any(); };
+	return isInside(box.lower) || isInside(box.upper);
+}
+
+/// Calls f(leaf beyond a face of a leaf).
+template <int Dim, class F> void forBeyond(Key leaf, int axis, bool isUpper, const Grid<Dim>& grid, F&& f)
+{
+	if (grid.refinement) return grid.refinement->forLeavesBeyond(leaf, axis, isUpper, [&](Key beyond, int) { f(beyond); });
+	f(grid.first(isUpper ? leaf + Grid<Dim>::keyStep(axis) : leaf - Grid<Dim>::keyStep(axis)));
+}
+
+template <int Dim> Vec<Dim> centreOf(Key leaf, const Grid<Dim>& grid)
+{
+	return grid.nodePosition(Grid<Dim>::index(leaf)) + Vec<Dim>::Constant(grid.size(Grid<Dim>::level(leaf)) / 2);
+}
+
+/// Volume of a leaf, around an axis of symmetry that of a ring.
+template <int Dim> double leafVolume(Key leaf, const Grid<Dim>& grid)
+{
+	return std::pow(grid.size(Grid<Dim>::level(leaf)), Dim) * aroundAxis(centreOf(leaf, grid)[0], grid);
+}
+
+/// Material in a leaf: its volume, and impedances rho c times that.
+struct FilledLeaf {
 	double volume = 0, pressure = 0, shear = 0;
 };
 
@@ -52,30 +81,35 @@ Absorption<Dim>::Absorption(
 	addDrag(faces(step), materials, masses, step);
 	completeDrag(step);
 	takeOver(step);
-	if (dashpots_.empty()) obstacle_ = boundary_.name + ": no face of a cell with material has all of its nodes in the box of that absorbing boundary";
+	if (dashpots_.empty() && obstacle_.empty())
+		obstacle_ = boundary_.name + ": no face of a cell with material has all of its nodes in the box of that absorbing boundary";
 	for (auto& [node, dashpot] : dashpots_)
 		for (int a = 0; a < Dim; ++a)
 			if (step.dofs.number[Dim * node + a] < 0) dashpot.drag[a] = dashpot.borne[a] = 0;
 }
 
-/// Those with material on one side. Cells that lie in the box as a whole are beyond.
+/// Those with material on one side. Leaves that lie in the box as a whole are beyond.
 template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::faces(const StepContext<Dim>& step)
 {
+	const auto&       leaves = step.basis.populatedLeaves();
 	std::vector<Face> found;
-	std::vector<int>  both; // cells with material beyond a face of the boundary
-	for (int c = 0; c < int(step.basis.cells.size()); ++c) {
-		const Index<Dim> cell = Grid<Dim>::index(step.basis.cells[c]);
+	std::vector<int>  both; // leaves with material beyond a face of the boundary
+	for (int c = 0; c < int(leaves.size()); ++c) {
+		if (Grid<Dim>::level(leaves[c]) > 0 && cutsLeaf(boundary_.box, leaves[c])) obstacle_ = textOfCut(leaves[c], step);
 		for (int side = 0; side < 2 * Dim; ++side) {
 			const int  axis    = side / 2;
 			const bool isUpper = side % 2;
-			if (!holdsFace(boundary_.box, cell, axis, isUpper)) continue;
-			const Index<Dim> beyond = step.grid.first(Index<Dim>(cell + (isUpper ? 1 : -1) * Index<Dim>::Unit(axis)));
-			if (const int other = find(step.basis.cells, Grid<Dim>::key(beyond)); other >= 0)
-				both.push_back(holdsFace(boundary_.box, cell, axis, !isUpper) ? c : other);
-			if (holdsFace(boundary_.box, cell, axis, !isUpper)) continue;
+			if (!holdsFace(boundary_.box, leaves[c], axis, isUpper)) continue;
+			const bool isBeyond = holdsFace(boundary_.box, leaves[c], axis, !isUpper);
+			forBeyond(leaves[c], axis, isUpper, step.grid, [&](Key beyond) {
+				if (const int other = find(leaves, beyond); other >= 0) both.push_back(isBeyond ? c : other);
+			});
+			if (isBeyond) continue;
 			Face face { c, axis, {} };
-			for (int n = 0; n < 1 << (Dim - 1); ++n)
-				face.node[n] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(nodeOfFace<Dim>(cell, axis, isUpper, n))));
+			for (int n = 0; n < 1 << (Dim - 1); ++n) {
+				const Index<Dim> node = step.grid.first(nodeOfFace<Dim>(leaves[c], axis, isUpper, n));
+				face.node[n] = position(step.basis.nodes, Grid<Dim>::key(node, Grid<Dim>::level(leaves[c]), Grid<Dim>::layer(leaves[c])));
+			}
 			found.push_back(face);
 		}
 	}
@@ -83,55 +117,64 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 	return found;
 }
 
+template <int Dim> std::string Absorption<Dim>::textOfCut(Key leaf, const StepContext<Dim>& step) const
+{
+	std::ostringstream text;
+	text << boundary_.name << " lies between the nodes of a larger cell, around (" << centreOf(leaf, step.grid).transpose()
+	     << "): let it reach them, or halve the cells there";
+	return text.str();
+}
+
 /// Refuses material on both sides: names where most of it is, and how much there is, of the points that this process
 /// has.
 template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vector<int>& beyond, const StepContext<Dim>& step) const
 {
-	std::vector<char>   isAskedFor(step.basis.cells.size(), 0);
-	std::vector<double> filled(step.basis.cells.size(), 0);
-	for (const int cell : beyond)
-		isAskedFor[cell] = 1;
-	const double h      = step.grid.cellSize;
-	const auto centreOf = [&](int cell) { return Vec<Dim>(step.grid.nodePosition(Grid<Dim>::index(step.basis.cells[cell])) + Vec<Dim>::Constant(h / 2)); };
+	const auto&         leaves = step.basis.populatedLeaves();
+	std::vector<char>   isAskedFor(leaves.size(), 0);
+	std::vector<double> filled(leaves.size(), 0);
+	for (const int leaf : beyond)
+		isAskedFor[leaf] = 1;
 	forOverlaps(isAskedFor, step.basis, step.grid, [&](int cell, int p, auto within) {
-		filled[cell] += within(step.stiffnessOf(p).volume) / (std::pow(h, Dim) * aroundAxis(centreOf(cell)[0], step.grid));
+		const int leaf = step.basis.leaf(cell);
+		filled[leaf] += within(step.stiffnessOf(p).volume) / leafVolume(leaves[leaf], step.grid);
 	});
 	const int          most = int(std::max_element(filled.begin(), filled.end()) - filled.begin());
 	std::ostringstream text;
 	text << boundary_.name << " has material on both sides: behind it are " << std::accumulate(filled.begin(), filled.end(), 0.)
-	     << " cells full, most of it in the cell around (" << centreOf(most).transpose() << "), of which it fills " << filled[most]
+	     << " cells full, most of it in the cell around (" << centreOf(leaves[most], step.grid).transpose() << "), of which it fills " << filled[most]
 	     << "; it has to be at the edge of the body, and what moves there has to stay in front of it";
 	return text.str();
 }
 
-/// A face is covered to the part to which its cell is filled.
+/// A face is covered to the part to which its leaf is filled.
 template <int Dim>
 void Absorption<Dim>::addDrag(
         const std::vector<Face>& faces, const std::vector<Material>& materials, const std::vector<double>& masses, const StepContext<Dim>& step)
 {
-	std::vector<char> isAskedFor(step.basis.cells.size(), 0);
+	const auto&       leaves = step.basis.populatedLeaves();
+	std::vector<char> isAskedFor(leaves.size(), 0);
 	for (const Face& face : faces)
-		isAskedFor[face.cell] = 1;
-	std::vector<FilledCell> cells(step.basis.cells.size());
+		isAskedFor[face.leaf] = 1;
+	std::vector<FilledLeaf> fillings(leaves.size());
 	forOverlaps(isAskedFor, step.basis, step.grid, [&](int cell, int p, auto within) {
 		const double     volume = step.stiffnessOf(p).volume, density = masses[p] / volume, overlap = within(volume);
-		const WaveModuli moduli = waveModuli(materials, step.cloud, p);
-		cells[cell].volume += overlap;
-		cells[cell].pressure += overlap * std::sqrt(density * moduli.pressure);
-		cells[cell].shear += overlap * std::sqrt(density * moduli.shear);
+		const WaveModuli moduli  = waveModuli(materials, step.cloud, p);
+		FilledLeaf&      filling = fillings[step.basis.leaf(cell)];
+		filling.volume += overlap;
+		filling.pressure += overlap * std::sqrt(density * moduli.pressure);
+		filling.shear += overlap * std::sqrt(density * moduli.shear);
 	});
-	const double h = step.grid.cellSize;
 	for (const Face& face : faces) {
-		const FilledCell& cell   = cells[face.cell];
-		const double      inside = step.grid.origin[0] + h * (Grid<Dim>::index(step.basis.cells[face.cell])[0] + 0.5);
-		const double      filled = std::min(cell.volume / (std::pow(h, Dim) * aroundAxis(inside, step.grid)), 1.);
+		const FilledLeaf& filling = fillings[face.leaf];
+		const double      h = step.grid.size(Grid<Dim>::level(leaves[face.leaf])), inside = centreOf(leaves[face.leaf], step.grid)[0];
+		const double      filled = std::min(filling.volume / leafVolume(leaves[face.leaf], step.grid), 1.);
 		for (const int node : face.node) {
 			// the integral of the node's shape function over the face, in axisymmetry over a part of a ring
-			const double at        = step.grid.origin[0] + h * Grid<Dim>::index(step.basis.nodes[node])[0];
+			const double at        = step.grid.nodePosition(Grid<Dim>::index(step.basis.nodes[node]))[0];
 			const double radius    = face.axis == 0 ? at : (at + 2 * inside) / 3;
 			const double area      = filled * std::pow(h, Dim - 1) * aroundAxis(radius, step.grid) / (1 << (Dim - 1));
-			Vec<Dim>     impedance = Vec<Dim>::Constant(cell.shear / cell.volume);
-			impedance[face.axis]   = cell.pressure / cell.volume;
+			Vec<Dim>     impedance = Vec<Dim>::Constant(filling.shear / filling.volume);
+			impedance[face.axis]   = filling.pressure / filling.volume;
 			dashpots_[node].drag += area * impedance;
 		}
 	}
@@ -145,8 +188,20 @@ template <int Dim> void Absorption<Dim>::completeDrag(const StepContext<Dim>& st
 	for (const auto& [node, dashpot] : dashpots_)
 		drag.template segment<Dim>(Dim * node) = dashpot.drag;
 	step.ownedNodes.complete(drag);
+	tieDashpots(step);
+	step.basis.affineConstraints.template condense<Dim>(drag);
 	for (auto& [node, dashpot] : dashpots_)
 		dashpot.drag = drag.template segment<Dim>(Dim * node);
+}
+
+/// Dashpots of tied nodes act on their masters, each with its share, so that they stay diagonal.
+template <int Dim> void Absorption<Dim>::tieDashpots(const StepContext<Dim>& step)
+{
+	const auto& tied = step.basis.affineConstraints;
+	for (std::size_t t = 0; t < tied.node.size(); ++t)
+		if (dashpots_.erase(tied.node[t]) > 0)
+			for (int m = tied.start[t]; m < tied.start[t + 1]; ++m)
+				dashpots_[tied.master[m]];
 }
 
 template <int Dim> void Absorption<Dim>::takeOver(const StepContext<Dim>& step)

@@ -46,13 +46,15 @@ private:
 		Vec<Dim> borne = Vec<Dim>::Zero(); ///< [N]
 	};
 	struct Face {
-		int cell, axis;
+		int leaf, axis;
 		int node[1 << (Dim - 1)];
 	};
 	std::vector<Face> faces(const StepContext<Dim>&);
+	std::string       textOfCut(Key leaf, const StepContext<Dim>&) const;
 	std::string       textOfBothSides(const std::vector<int>& beyond, const StepContext<Dim>&) const;
 	void              addDrag(const std::vector<Face>&, const std::vector<Material>&, const std::vector<double>& masses, const StepContext<Dim>&);
 	void              completeDrag(const StepContext<Dim>&);
+	void              tieDashpots(const StepContext<Dim>&);
 	void              takeOver(const StepContext<Dim>&);
 
 	AbsorbingBoundary<Dim>& boundary_;

@@ -56,6 +56,7 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const StepContext<Dim>& step
 		for (const auto& each : damping_)
 			each->addBefore(start_, drag);
 		ownedNodes_.complete(drag);
+		basis_.affineConstraints.template condense<Dim>(drag);
 		force -= drag;
 	}
 	solve(force, dofs_, a);
@@ -94,6 +95,7 @@ template <int Dim> void ExplicitInertia<Dim>::findJump()
 template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
 {
 	isSingular_ = !mass_.solve({ { right, dofs, x } }, {}, C) || isSingular_;
+	basis_.affineConstraints.template distribute<Dim>(x);
 }
 
 template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const
@@ -114,6 +116,7 @@ template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen:
 		each->addDiagonal(C);
 	}
 	if (!damping_.empty()) ownedNodes_.complete(force), ownedNodes_.complete(C);
+	basis_.affineConstraints.template condense<Dim>(force);
 	C *= T / 2;
 	const Eigen::VectorXd driving = imbalance - force;
 	solve(driving, dofs_, acceleration_, damping_.empty() ? nullptr : &C);

@@ -78,9 +78,9 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const StepContext<D
 		for (const auto& each : damping_)
 			each->addBefore(velocity_, damping);
 		ownedNodes_.complete(damping);
+		basis_.affineConstraints.template condense<Dim>(damping);
 		all -= damping;
 	}
-	basis_.affineConstraints.template condense<Dim>(all);
 	return all;
 }
 
@@ -124,6 +124,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(prescribed_.size());
 	if (motion_.contacts && motion_.contacts->acting) motion_.contacts->acting->addUnweighted(d, resistance);
 	if (motion_.bodies && motion_.bodies->acting) motion_.bodies->acting->addUnweighted(d, resistance);
+	basis_.affineConstraints.template condense<Dim>(resistance);
 	return -resistance;
 }
 
@@ -271,6 +272,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::inertialPredictor() const
 	if (!motion_.bodies || !motion_.bodies->acting) return d;
 	Eigen::VectorXd contact = Eigen::VectorXd::Zero(d.size()), stopping = nodal_ * accelerationAt(prescribed_);
 	motion_.bodies->acting->addUnweighted(&d, contact);
+	basis_.affineConstraints.template condense<Dim>(contact);
 	for (Eigen::Index i = 0; i < d.size(); ++i)
 		if (isConstrained(i)) contact[i] = stopping[i] = 0;
 	return contact.norm() > stopping.norm() ? prescribed_ : d;

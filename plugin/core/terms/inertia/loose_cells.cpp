@@ -31,17 +31,28 @@ template <int Dim> CellPairs cellPairs(const std::vector<GhostFace<Dim>>& faces,
 	return pairs;
 }
 
-/// Cells at ghost faces, and those that have none but not all neighbours, as by themselves or behind a wall; the others
-/// are within the body.
-template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const CellPairs& pairs, const Grid<Dim>& grid)
+/// True if all neighbours across the faces of a leaf are populated.
+template <int Dim> bool isWithin(Key leaf, const std::vector<Key>& leaves, const Grid<Dim>& grid)
 {
-	std::vector<char> isAt(basis.cells.size(), false);
+	bool       is    = true;
+	const auto count = [&](Key beyond, int) { is = is && find(leaves, grid.first(beyond)) >= 0; };
+	for (int a = 0; a < Dim && is; ++a)
+		for (const bool isAbove : { false, true })
+			if (grid.refinement) grid.refinement->forLeavesBeyond(leaf, a, isAbove, count);
+			else
+				count(isAbove ? leaf + Grid<Dim>::keyStep(a) : leaf - Grid<Dim>::keyStep(a), 0);
+	return is;
+}
+
+/// Leaves at ghost faces, and those that have none but not all neighbours, as by themselves or behind a wall; the
+/// others are within the body.
+template <int Dim> std::vector<char> atEdge(const std::vector<Key>& leaves, const CellPairs& pairs, const Grid<Dim>& grid)
+{
+	std::vector<char> isAt(leaves.size(), false);
 	for (const auto& [lower, upper] : pairs)
 		isAt[lower] = isAt[upper] = true;
-	const auto isPopulated = [&](Key cell) { return find(basis.cells, grid.first(cell)) >= 0; };
 	for (std::size_t c = 0; c < isAt.size(); ++c)
-		for (int a = 0; a < Dim && !isAt[c]; ++a)
-			isAt[c] = !isPopulated(basis.cells[c] - Grid<Dim>::keyStep(a)) || !isPopulated(basis.cells[c] + Grid<Dim>::keyStep(a));
+		isAt[c] = isAt[c] || !isWithin(leaves[c], leaves, grid);
 	return isAt;
 }
 
@@ -56,9 +67,20 @@ void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 	}
 }
 
-/// Adds a point to the cell of its centre, if that has a slot.
+/// Position in a leaf, from -1 to 1 along each axis, of one in a cell of it.
+template <int Dim> Vec<Dim> inLeaf(const Vec<Dim>& position, Key cell, Key leaf)
+{
+	const int level = Grid<Dim>::level(cell), ofLeaf = Grid<Dim>::level(leaf);
+	if (level == ofLeaf) return position;
+	const Vec<Dim> apart = (Grid<Dim>::index(cell) - Grid<Dim>::index(leaf)).template cast<double>();
+	return ((2 * apart + double(1 << level) * (position + Vec<Dim>::Ones())) / (1 << ofLeaf) - Vec<Dim>::Ones()).eval();
+}
+
+/// Adds a point to the leaf of its centre, if that has a slot.
 template <int Dim>
-void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, const Patch<Dim>& patch, const PointBasis<Dim>& axes, double mass)
+void addTo(
+        std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, const CloudBasis<Dim>& basis, const Patch<Dim>& patch, const PointBasis<Dim>& axes,
+        double mass)
 {
 	Vec<Dim> position; // from -1 to 1
 	int      number = 0;
@@ -69,17 +91,15 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 		number |= isUpper << a;
 	}
 	const int cell = patch.reached[number]; // none beyond a wall
-	if (cell < 0 || slot[cell] < 0) return;
-	auto&                                           filling = fillings[slot[cell]];
+	if (cell < 0 || slot[basis.leaf(cell)] < 0) return;
+	const int leaf    = basis.leaf(cell);
+	auto&     filling = fillings[slot[leaf]];
+	position          = inLeaf<Dim>(position, basis.cells[cell], basis.populatedLeaves()[leaf]);
 	Eigen::Matrix<double, Filling<Dim>::corners, 1> field;
 	for (int corner = 0; corner < Filling<Dim>::corners; ++corner) {
-		int node      = 0;
 		field[corner] = 1;
-		for (int a = Dim; a-- > 0;) {
-			node = node * patch.nodesAlong(a) + (number >> a & 1) + (corner >> a & 1);
+		for (int a = 0; a < Dim; ++a)
 			if (corner >> a & 1) field[corner] *= position[a];
-		}
-		filling.cell.node[corner] = patch.node[node];
 	}
 	filling.cell.mass += mass;
 	++filling.cell.points;
@@ -88,30 +108,44 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 
 } // namespace
 
+/// Corners of a leaf, the first axis fastest.
+template <int Dim> auto cornersOfLeaf(Key leaf, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+{
+	decltype(LooseCell<Dim>::node) node;
+	for (int corner = 0; corner < LooseCell<Dim>::corners; ++corner)
+		node[corner] = position(basis.nodes, grid.first(leaf + Grid<Dim>::keyOffset(corner, Grid<Dim>::level(leaf))));
+	return node;
+}
+
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid, int reach,
         const Division& division)
 {
-	const auto              pairs = cellPairs(faces, basis, grid);
-	const std::vector<char> isAt  = atEdge(basis, pairs, grid);
+	const auto              pairs  = cellPairs(faces, basis, grid);
+	const auto&             leaves = basis.populatedLeaves();
+	const std::vector<char> isAt   = atEdge(leaves, pairs, grid);
 	std::vector<int>        slot(isAt.size(), -1);
 	int                     count = 0;
 	for (std::size_t c = 0; c < isAt.size(); ++c)
 		if (isAt[c]) slot[c] = count++;
 	std::vector<Filling<Dim>> fillings(count);
 	for (const auto& patch : basis.patches)
-		if (std::any_of(patch.reached.begin(), patch.reached.end(), [&](int c) { return c >= 0 && isAt[c]; }))
+		if (std::any_of(patch.reached.begin(), patch.reached.end(), [&](int c) { return c >= 0 && isAt[basis.leaf(c)]; }))
 			for (int i = patch.first; i < patch.first + patch.count; ++i)
-				addTo(fillings, slot, patch, basis.axes[i], masses[basis.order[i]]);
+				addTo(fillings, slot, basis, patch, basis.axes[i], masses[basis.order[i]]);
 	std::vector<char> isKnown(slot.size(), true);
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (isAt[c]) isKnown[c] = fillings[slot[c]].determines();
-	division.complete(basis.cells, isKnown);
+	division.complete(leaves, isKnown);
 	spread(isKnown, pairs, reach);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
-		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) loose.push_back(fillings[slot[c]].cell), loose.back().cell = int(c);
+		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) {
+			loose.push_back(fillings[slot[c]].cell);
+			loose.back().node = cornersOfLeaf(leaves[c], basis, grid);
+			loose.back().leaf = int(c);
+		}
 	return loose;
 }
 

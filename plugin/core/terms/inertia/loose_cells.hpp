@@ -6,13 +6,13 @@
 
 namespace gimpm {
 
-/// A populated cell: its nodes, the first axis fastest, and the points whose centre is in it with their mass [kg].
+/// A populated leaf: its nodes, the first axis fastest, and the points whose centre is in it with their mass [kg].
 template <int Dim> struct LooseCell {
 	static constexpr int     corners = 1 << Dim;
 	std::array<int, corners> node {};
 	double                   mass   = 0;
 	int                      points = 0;
-	int                      cell   = -1; ///< number in the basis
+	int                      leaf   = -1; ///< number among the populated leaves
 };
 
 /// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse

@@ -51,7 +51,7 @@ template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, c
 {
 	double count = 0;
 	for (const auto& cell : cells)
-		if (step.division.owns(step.basis.cells[cell.cell])) count += cell.points;
+		if (step.division.owns(step.basis.populatedLeaves()[cell.leaf])) count += cell.points;
 	return int(step.division.sum(count));
 }
 
@@ -68,13 +68,12 @@ template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseC
 	const auto&       leaves = step.basis.populatedLeaves();
 	std::vector<char> isLoose(leaves.size(), 0);
 	for (const auto& cell : loose)
-		isLoose[step.basis.leaf(cell.cell)] = 1;
+		isLoose[cell.leaf] = 1;
 	const auto square = cellModuli<Dim>(isLoose, step.basis, squareOfSpeed, step.grid);
 	auto       extent = loose;
 	for (auto& cell : extent) {
-		const int    leaf = step.basis.leaf(cell.cell);
-		const double way  = motion.duration / step.grid.size(Grid<Dim>::level(leaves[leaf]));
-		cell.mass *= std::min(ofHalfACell, ofStiffness * motion.scheme.beta * way * way * square[leaf]);
+		const double way = motion.duration / step.grid.size(Grid<Dim>::level(leaves[cell.leaf]));
+		cell.mass *= std::min(ofHalfACell, ofStiffness * motion.scheme.beta * way * way * square[cell.leaf]);
 	}
 	return extent;
 }
@@ -87,7 +86,7 @@ std::vector<LooseCell<Dim>> tornOf(
 	const MastersOf             masters(int(step.basis.nodes.size()), &step.basis.affineConstraints);
 	std::vector<LooseCell<Dim>> torn;
 	for (const auto& cell : loose) {
-		const double   size = step.grid.size(Grid<Dim>::level(leaves[step.basis.leaf(cell.cell)]));
+		const double   size = step.grid.size(Grid<Dim>::level(leaves[cell.leaf]));
 		double         gap  = size / motion.duration;
 		LooseCell<Dim> found;
 		for (int axis = 0; axis < Dim; ++axis) {

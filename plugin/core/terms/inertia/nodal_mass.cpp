@@ -13,14 +13,17 @@ namespace {
 /// where a displacement vanishes and its gradient does not: with less mass they would not be stable.
 constexpr double lumpedShare = 1;
 
-template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, const std::vector<double>& masses)
+/// Sum of the mass at each node, of all processes; that of tied nodes is their masters'.
+template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, const std::vector<double>& masses, const OwnedNodes& ownedNodes)
 {
-	std::vector<double> sum(basis.nodes.size(), 0);
+	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size()));
 	forPointNodes(basis, [&](int p, const Patch<Dim>& patch, const double* value, int count) {
 		for (int n = 0; n < count; ++n)
 			if (patch.node[n] >= 0) sum[patch.node[n]] += masses[basis.order[p]] * value[n];
 	});
-	return sum;
+	ownedNodes.complete(sum);
+	basis.affineConstraints.template condense<1>(sum);
+	return { sum.begin(), sum.end() };
 }
 
 /// f(degree of freedom, position) for a side of several, whose components stand node by node.
@@ -38,13 +41,12 @@ NodalMass<Dim>::NodalMass(
         const std::vector<LooseCell<Dim>>& loose, const OwnedNodes& ownedNodes)
 {
 	if (faces.empty()) {
-		lumped_ = lumped(basis, masses);
-		ownedNodes.complete(lumped_);
+		lumped_ = lumped(basis, masses, ownedNodes);
 		return;
 	}
 	MassMatrix<Dim> mass(basis, masses, faces, h, loose, lumpedShare);
 	mass.complete(ownedNodes, basis.nodes);
-	*this = NodalMass(mass);
+	*this = NodalMass(mass, basis.affineConstraints);
 }
 
 template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const AffineConstraints& affineConstraints) : lumped_(mass.nodes(), 0)

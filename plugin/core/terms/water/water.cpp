@@ -237,6 +237,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		if (fillsWalls && !wet.isDry()) addTo<Dim>({ onWalls }, wet, -water_.factor);
 	});
 	ownedNodes_.complete(onWalls);
+	basis_.affineConstraints.template condense<Dim>(onWalls);
 	water_.onWalls.clear();
 	for (std::size_t n = 0; n < basis_.nodes.size() && fillsWalls; ++n) {
 		Vec<Dim> force = Vec<Dim>::Zero();
