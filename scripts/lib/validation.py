@@ -35,7 +35,7 @@ runs = {
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
-        'adaptive': ['adaptive.py'],
+        'adaptive': ['adaptive.py', 'slip.py'],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],

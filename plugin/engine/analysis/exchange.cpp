@@ -265,9 +265,7 @@ template <int Dim> gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoi
 {
 	gimpm::PointCloud<Dim> centres;
 	for (const MaterialPoint& point : points)
-		if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>();
-		    x.allFinite() && ((x - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit)
-			centres.position.push_back(x);
+		if (isOnGrid(point.state->pos, grid)) centres.position.push_back(point.state->pos.head<Dim>());
 	return centres;
 }
 

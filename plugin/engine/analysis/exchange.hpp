@@ -11,6 +11,13 @@ namespace yade {
 // Refuses a number of a body of points that the grid does not have, at `where`.
 void requireBody(int body, int count, const string& where);
 
+// True if the grid has a cell there.
+template <int Dim> bool isOnGrid(const Vector3r& position, const gimpm::Grid<Dim>& grid)
+{
+	const gimpm::Vec<Dim> x = position.head<Dim>();
+	return x.allFinite() && ((x - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
+}
+
 // Centres of points, without those that are off the grid, which a step refuses.
 template <int Dim> gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);
 

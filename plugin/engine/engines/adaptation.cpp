@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/adaptation.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/varying_cells.hpp"
 #include "engine/analysis/cells_by_size.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "yade_api/scene.hpp"
 #include <numeric>
 
@@ -17,17 +19,41 @@ namespace {
 		return std::accumulate(cells.begin(), cells.end(), Real(0), [&](Real sum, const auto& cell) { return sum + grid.dim * cell.second; });
 	}
 
+	void addBox(Boxes& boxes, const Vector3r& middle, Real half, int halvings)
+	{
+		const auto box = shared_ptr<MpmRefinement>(new MpmRefinement);
+		box->min = middle - Vector3r::Constant(half), box->max = middle + Vector3r::Constant(half);
+		box->halvings = halvings;
+		boxes.push_back(box);
+	}
+
 	// Around each position the cells that are to be halved last reach one of their sizes far.
-	void addBoxes(Boxes& boxes, const Analysis& analysis, const Scene& scene, int halvings)
+	void addEdges(Boxes& boxes, const Analysis& analysis, const Scene& scene, int halvings)
 	{
 		const Real size = analysis.grid->cellSize / (1 << (halvings - 1));
 		for (const Listed& listed : analysis.conditions())
-			for (const Vector3r& place : listed.condition->edges(analysis, scene, size)) {
-				const auto box = shared_ptr<MpmRefinement>(new MpmRefinement);
-				box->min = place - Vector3r::Constant(size), box->max = place + Vector3r::Constant(size);
-				box->halvings = halvings;
-				boxes.push_back(box);
-			}
+			for (const Vector3r& place : listed.condition->edges(analysis, scene, size))
+				addBox(boxes, place, size, halvings);
+	}
+
+	// Cells of the largest size, and half of one around them: what deforms there has not left when the step ends.
+	template <int Dim> void addVarying(Boxes& boxes, const MpmGrid& grid, const vector<MaterialPoint>& points, int halvings)
+	{
+		const gimpm::Grid<Dim>             large { grid.cellSize, grid.origin.head<Dim>() };
+		vector<gimpm::DeformedVolume<Dim>> deformed;
+		for (const auto& [id, shape, state, material] : points)
+			if (isOnGrid(state->pos, large)) deformed.push_back({ state->pos.template head<Dim>(), state->volume, state->defGrad });
+		for (const auto& cell : gimpm::varyingCells<Dim>(deformed, large)) {
+			Vector3r middle             = Vector3r::Zero();
+			middle.template head<Dim>() = large.nodePosition(cell) + gimpm::Vec<Dim>::Constant(grid.cellSize / 2);
+			addBox(boxes, middle, grid.cellSize, halvings);
+		}
+	}
+
+	void addBoxes(Boxes& boxes, const MpmAdaptation& by, const Analysis& analysis, const Scene& scene, const vector<MaterialPoint>& points, int halvings)
+	{
+		if (by.where == "contact") return addEdges(boxes, analysis, scene, halvings);
+		analysis.grid->dim == 2 ? addVarying<2>(boxes, *analysis.grid, points, halvings) : addVarying<3>(boxes, *analysis.grid, points, halvings);
 	}
 }
 
@@ -42,7 +68,7 @@ string adapt(const Analysis& analysis, const Scene& scene, const vector<Material
 		Real                 unknowns   = 0;
 		for (; halvings > 0; --halvings) {
 			Boxes tried = boxes;
-			addBoxes(tried, analysis, scene, halvings);
+			addBoxes(tried, adaptation, analysis, scene, points, halvings);
 			grid.adapted = std::move(tried);
 			if (!std::isfinite(adaptation.maxUnknowns)) break;
 			unknowns = unknownsOf(grid, points);

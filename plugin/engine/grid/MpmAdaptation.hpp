@@ -13,15 +13,17 @@ public:
 	YADE_API_NAME(MpmAdaptation)
 	static const char* doc()
 	{
-		return "Cells of an MpmGrid that are halved by themselves, anew in each step, where rigid bodies touch the soil by edges, tips and round surfaces: "
-		       "there a cell costs most accuracy. Cells around them are halved as often as it takes for neighbours to differ by one halving at most.\n\n"
+		return "Cells of an MpmGrid that are halved by themselves, anew in each step, where a cell costs most accuracy: around edges, tips and round surfaces of "
+		       "rigid bodies, or where the deformation varies most. Cells around them are halved as often as it takes for neighbours to differ by one halving at most.\n\n"
 		       "Set first: *halvings* = 1 and the *cellSize* of a run without; then 2, to see what changes. Page: plugin/docs/classes/MpmAdaptation.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
 		v("halvings", &MpmAdaptation::halvings, 0, "Number of times that cells of *MpmGrid.cellSize* are halved, 1 to 5, with dim=3 to 3.",
 		  oneOf(1, 2, 3, 4, 5));
-		v("where", &MpmAdaptation::where, 0, "'contact': around edges, tips and round surfaces of the bodies of each MpmContact.", oneOf("contact"));
+		v("where", &MpmAdaptation::where, 0,
+		  "'contact': around edges, tips and round surfaces of the bodies of each MpmContact; 'error': cells with 98 % of the estimated error of the deformation gradient.",
+		  oneOf("contact", "error"));
 		v("maxUnknowns", &MpmAdaptation::maxUnknowns, 0,
 		  "Displacement unknowns [-] > 0 that a step may have, as estimated from the cells: beyond them cells are halved less often, with a warning; inf, the default: no limit.",
 		  admitting("a number > 0, or inf", [](Real most) { return most > 0; }));

@@ -110,3 +110,66 @@ def test_what_cannot_be_is_refused(yade, change, said):
 try: O.step()
 except Exception as error: print(json.dumps(str(error)))
 ''').result
+
+
+slope = '''
+import json
+import numpy as np
+from yade import mpm
+
+def slope(yieldStress=1.2e4, engine=MpmImplicitEngine, profile=[(0, 0), (16, 0), (16, 2), (9, 2), (5, 6), (0, 6)], **options):
+	O.reset()
+	grid = MpmGrid(cellSize=1, adaptation=[MpmAdaptation(halvings=1, where='error')])
+	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=yieldStress, label='soil'))
+	O.bodies.append(mpm.fill(mpm.polygon(profile), grid, 4, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(16, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	O.engines = [engine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, label='solver', verbosity=0, **options)]
+	O.dt = 1 / 20
+	return grid
+'''
+
+
+def test_cells_are_halved_where_soil_slides_and_nowhere_of_level_ground(yade):
+	results = yade(slope + '''
+found = []
+for setting in dict(profile=[(0, 0), (16, 0), (16, 6), (0, 6)]), dict():
+	grid = slope(**setting)
+	O.run(20, wait=True)
+	found.append([len(grid.adapted), [(np.array(box.min) + box.max).tolist() for box in grid.adapted], len(solver.report()['cells'])])
+print(json.dumps(found))
+''').result
+	(none, _, one), (some, middles, sizes) = results
+	assert (none, one, sizes) == (0, 1, 2) and 5 < some < 50
+	assert all(x / 2 < 13 and y / 2 < 6 for x, y, _ in middles)
+
+
+def test_cells_that_follow_the_error_go_on_with_the_same_bits(yade):
+	result = yade(slope + '''
+slope()
+O.run(15, wait=True)
+mpm.save('half.yade.gz')
+O.run(4, wait=True)
+whole = [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')]
+mpm.load('half.yade.gz')
+O.run(4, wait=True)
+print(json.dumps([whole == [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')], len(solver.report()['cells'])]))
+''').result
+	assert result == [True, 2]
+
+
+@pytest.mark.parametrize('scheme', ['newmark', 'explicit'])
+def test_cells_change_in_time_without_a_jump_of_energy(yade, scheme):
+	"""A slide in time: what the step of the sizes does to the energy is less than a percent of what slides."""
+	result = yade(slope + f'''
+slope(1e4, MpmDynamicEngine, scheme={scheme!r})
+O.dt = 0.003 if {scheme!r} == 'explicit' else 0.02
+sizes = set()
+while O.time < 1:
+	O.step()
+	sizes.add(len(solver.report()['cells']))
+data = solver.plotData()
+print(json.dumps([sorted(sizes), data['energyImbalance'], data['kineticEnergy'], data['loadWork']]))
+''').result
+	sizes, imbalance, kinetic, work = result
+	assert sizes == [1, 2] and kinetic > 0
+	assert abs(imbalance) < 0.01 * abs(work)

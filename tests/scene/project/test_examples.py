@@ -270,6 +270,15 @@ def test_adaptive(yade):
 	assert (run.folder / 'out/adaptive/adaptive.png').stat().st_size > 20000
 
 
+def test_small_cells_where_the_deformation_varies(yade):
+	"""Crest and toe go as far as with small cells everywhere, with little more than half of the unknowns."""
+	run = yade(root / 'examples' / 'adaptive' / 'slip.py', '--cellSize', 0.5, '--steps', 40)
+	everywhere, fewer = map(int, re.findall(r'(\d+) unknowns', run.stdout))
+	crest, toe = map(float, re.findall(r'm: (\S+) % off', run.stdout))
+	assert fewer < 0.6 * everywhere and crest < 1 and toe < 3
+	assert (run.folder / 'out/adaptive/slip.png').stat().st_size > 20000
+
+
 def test_two_sizes(yade):
 	"""A part of it, with halved cells; what is in the table is not run again."""
 	example = root / 'examples' / 'two_sizes' / 'two_sizes.py'
