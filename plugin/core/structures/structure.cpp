@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/structure.hpp"
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -41,6 +42,14 @@ template <int Dim> Structure<Dim> Structure<Dim>::asItBegins() const
 		own.shrinkage  = 1;
 	}
 	return begins;
+}
+
+template <int Dim> double Structure<Dim>::length() const
+{
+	double sum = beam ? std::accumulate(beam->length0.begin(), beam->length0.end(), 0.) : 0;
+	for (const auto& bar : bars)
+		sum = std::accumulate(bar.length0.begin(), bar.length0.end(), sum);
+	return sum;
 }
 
 template <int Dim> void Structure<Dim>::stiffen(double scale)

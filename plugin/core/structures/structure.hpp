@@ -212,6 +212,9 @@ template <int Dim> struct Structure {
 	}
 	std::string name() const { return beam ? beam->name : bars.front().name; }
 
+	/// Length of all lines without stress [m].
+	double length() const;
+
 	/// All of it as much stiffer as the soil around it is made, with what has given way elastically as much less.
 	void stiffen(double scale);
 

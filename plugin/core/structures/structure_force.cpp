@@ -363,14 +363,24 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 			}
 }
 
-/// Forces beyond what numbers can hold would make any residual look small.
+/// Forces beyond what numbers can hold would make any residual look small, and the soil around a vertex is that of the
+/// beginning of the step.
 template <int Dim> Refusal StructureForce<Dim>::refusal(const Eigen::VectorXd& d)
 {
 	if (!system_) return {};
 	if (!std::isfinite(fromOutside(d))) return { Failure::refused, structure_.name() + " has forces that are not finite numbers any more", "" };
-	if (system_->solve(soilAt(d), last_).isFound) return {};
-	return { Failure::refused, structure_.name() + " finds no equilibrium with the soil around it",
-		 "It may have been pulled out, have buckled, or have become a mechanism by hinges that yield: shorter steps show how it gets there." };
+	const auto solution = system_->solve(soilAt(d), last_);
+	if (!solution.isFound)
+		return { Failure::refused, structure_.name() + " finds no equilibrium with the soil around it",
+			 "It may have been pulled out, have buckled, have become a mechanism by hinges that yield, or slide along itself, where friction "
+			 "acts with pressures of the step before: take shorter steps, or fix an end." };
+	for (int v = 0; v < structure_.vertices(); ++v) {
+		const double move = system_->moveInSoil(v, solution.x);
+		if (move <= soil_[v].cellSize) continue;
+		return { Failure::refused, sentence(structure_.name(), " moves by ", move, " m in the soil around it, more than a cell"),
+			 "If nothing holds it along itself, give it adhesion, friction, an anchor or a fixed end." };
+	}
+	return {};
 }
 
 template class StructureForce<2>;

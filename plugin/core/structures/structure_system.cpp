@@ -25,23 +25,30 @@ Energy<1> springEnergy(double trial, double stiffness, double limit, bool oneSid
 	return energy;
 }
 
-/// Solves with a symmetric matrix, made definite where nothing resists, as where all springs have yielded.
+/// Solves with a symmetric matrix, made definite where nothing resists, as where all springs have yielded: there a beam
+/// stays where it is, while a pivot that is round-off would move it by anything.
 class Factor {
 public:
 	explicit Factor(const Sparse& matrix)
 	{
 		factor_.compute(matrix);
-		if (isUsable()) return;
+		if (isUsable(matrix)) return;
 		const double largest = matrix.nonZeros() > 0 ? matrix.diagonal().cwiseAbs().maxCoeff() : 0;
 		Sparse       shift(matrix.rows(), matrix.cols());
 		shift.setIdentity();
 		factor_.compute(matrix + (largest > 0 ? 1e-9 * largest : 1.) * shift);
 	}
 	template <class B> auto solve(const B& b) const { return factor_.solve(b); }
-	bool                    isDefinite() const { return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0; }
 
 private:
-	bool isUsable() const { return factor_.info() == Eigen::Success && factor_.vectorD().cwiseAbs().minCoeff() > 0; }
+	/// True if no pivot is round-off of the diagonal that it is left of.
+	bool isUsable(const Sparse& matrix) const
+	{
+		constexpr double roundOff = 1e-12;
+		if (factor_.info() != Eigen::Success) return false;
+		const Eigen::VectorXd diagonal = factor_.permutationP() * Eigen::VectorXd(matrix.diagonal());
+		return (factor_.vectorD().array().abs() > roundOff * diagonal.array().abs()).all();
+	}
 
 	Eigen::SimplicialLDLT<Sparse> factor_;
 };
@@ -376,9 +383,22 @@ template <int Dim> Eigen::VectorXd StructureSystem<Dim>::direction(const EnergyS
 	return step;
 }
 
+/// Largest displacement or slip in a step of the structure's own unknowns [m].
+template <int Dim> double StructureSystem<Dim>::farthestMove(const Eigen::VectorXd& step) const
+{
+	double     farthest = 0;
+	const auto look     = [&](int unknown) {
+                if (unknown >= 0) farthest = std::max(farthest, std::abs(step[unknown - soilUnknowns_]));
+	};
+	for (const Station& station : stations_)
+		look(station.own[0]), look(station.own[1]), look(station.slip);
+	return farthest;
+}
+
 /// Solves by Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then
 /// far down, while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure
-/// for it; by secants of the springs the energy then only goes down, and Newton's method ends what they begin.
+/// for it, and it would end anywhere; by secants of the springs the energy then only goes down, and Newton's method
+/// ends what they begin.
 template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const
 {
 	constexpr int newtonSteps = 25, secantSteps = 40, rounds = 5;
@@ -394,6 +414,20 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 	return found;
 }
 
+template <int Dim> double StructureSystem<Dim>::moveInSoil(int v, const Eigen::VectorXd& x) const
+{
+	const Station& station  = stations_[v];
+	double         shortest = std::numeric_limits<double>::infinity();
+	for (const int soil : { station.soil, station.toTheRight }) {
+		if (soil < 0) continue;
+		Vec<Dim> apart;
+		for (int a = 0; a < Dim; ++a)
+			apart[a] = component(station, a).at(x) - x[soil + a];
+		shortest = std::min(shortest, apart.norm());
+	}
+	return std::isfinite(shortest) ? shortest : 0;
+}
+
 template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::iterate(Eigen::VectorXd from, int mostSteps, bool secants) const
 {
 	constexpr double tolerance = 1e-11, roundOffOfForces = 1e-8, leastDescent = 1e-4;
@@ -405,10 +439,11 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 		const Eigen::VectorXd gradient = sum.gradient.tail(own);
 		if (!(gradient.norm() > tolerance * sum.absoluteContributions.tail(own).norm())) break;
 		const Eigen::VectorXd direction = this->direction(sum);
-		const double          descent = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
-		Eigen::VectorXd       x = at.x;
-		EnergySum             next(0);
-		double                length = 1;
+		if (!secants && !(farthestMove(direction) < structure_.length())) break;
+		const double    descent = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
+		Eigen::VectorXd x = at.x;
+		EnergySum       next(0);
+		double          length = 1;
 		for (int half = 0; half < mostHalves; ++half, length /= 2) {
 			x.tail(own)           = at.x.tail(own) + length * direction;
 			next                  = energyAt(x, secants);

@@ -45,6 +45,10 @@ public:
 	/// Solution of the structure's equilibrium, from a first guess of its own unknowns; all zero if that is empty.
 	Solution solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const;
 
+	/// Displacement of a vertex against the soil around it, of two sides the one that it moves less
+	/// against [m]; 0: it has none.
+	double moveInSoil(int vertex, const Eigen::VectorXd& x) const;
+
 	/// On the soil at equilibrium: the force by which the structure resists its displacements, and the derivative.
 	EnergySum       energyAt(const Eigen::VectorXd& x, bool secants = false) const;
 	Eigen::MatrixXd condensed(const EnergySum&) const;
@@ -94,6 +98,7 @@ private:
 	void                            commitPiece(std::size_t number, const Eigen::Matrix<double, 6, 1>& u);
 	void                            commitBeam(const Eigen::VectorXd& x);
 	Eigen::VectorXd                 direction(const EnergySum&) const;
+	double                          farthestMove(const Eigen::VectorXd& step) const;
 	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;
 
 	int ofBeam() const { return structure_.beam ? int(structure_.beam->positions.size()) : 0; }

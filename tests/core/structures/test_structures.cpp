@@ -147,6 +147,38 @@ namespace {
 		EXPECT_NEAR(4 - beam.positions.front()[0], 4 * (1 + pull / EA) / (1 + N / EA), 1e-9);
 	}
 
+	/// Smooth beam without weight between soil that settles on both sides: a pivot that is round-off must not move it
+	/// along itself.
+	TEST(Beams, StayWhereNothingHoldsThemAlongThemselves)
+	{
+		for (const double axialStiffness : { 1e7, 1e9 }) {
+			Structure<2> structure;
+			Beam&        beam = structure.beam.emplace();
+			beam.section      = { axialStiffness, 1e5 };
+			beam.adhesion     = 0;
+			beam.begin(divided<2>({ { 2.3, 3 }, { 2.87, 0.9 } }, 0.25));
+			const int    count = int(beam.positions.size());
+			SoilAtVertex soil { true, 3 };
+			soil.young = 1e6, soil.cellSize = 0.5;
+			for (int v = 0; v < count; ++v)
+				for (BeamSide& side : beam.sides)
+					side.normalForce[v] = beam.sizeAt(v) * 4e3 * (3.2 - beam.positions[v][1]);
+			beam.isStuck.assign(count, 0);
+			StructureSystem<2> system(structure, std::vector<SoilAtVertex>(2 * count, soil));
+			Eigen::VectorXd    u(system.soilUnknowns());
+			for (int position = 0; position < 2 * count; ++position) {
+				const double y = beam.positions[position % count][1];
+				u.segment<2>(system.soilUnknown(position))
+				        = Vec<2>(1e-4 * std::sin(y + position / count), -0.01 * y - 0.003 * (position / count));
+			}
+			const auto   found  = system.solve(u, {});
+			const Vec<2> before = beam.positions[0], along = beam.tangentAt(0);
+			EXPECT_TRUE(found.isFound);
+			system.commit(found.x);
+			EXPECT_LT(std::abs((beam.positions[0] - before).dot(along)), 1e-5) << axialStiffness;
+		}
+	}
+
 	/// Deflection with a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8
 	/// EI.
 	TEST(Beams, HingesTakeNoMoment)

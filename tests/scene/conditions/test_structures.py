@@ -162,14 +162,14 @@ print(json.dumps([force, -np.linalg.lstsq(np.c_[np.ones(len(x)), twice], lining.
 
 
 wall = block + '''
-def excavated(steps=4):
+def excavated(steps=4, fixFoot='y'):
 	"""An anchored wall in elastic ground: soil to its left, and to its right below the middle."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=2e7, poisson=.3, density=2000, label='soil'))
 	grid = MpmGrid(cellSize=.5)
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (10, 0), (10, 3), (6, 3), (6, 6), (0, 6)]), grid, 2, 'soil'))
 	anchor = MpmReinforcement(line=[(6, 5), (3, 4), (1.5, 3.5)], axialStiffness=2e7, freeLength=3, bond=1e5, bondStiffness=1e7, pretension=1e4)
-	sheet = MpmBeam(line=[(6, 6), (6, 1)], axialStiffness=1e9, bendingStiffness=2e7, adhesion=0, friction=radians(20), anchors=[anchor], weight=1e3)
+	sheet = MpmBeam(line=[(6, 6), (6, 1)], axialStiffness=1e9, bendingStiffness=2e7, adhesion=0, friction=radians(20), fixFoot=fixFoot, anchors=[anchor], weight=1e3)
 	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(10, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
 	O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, loads=[sheet], verbosity=0, label='solver'), MpmVtkRecorder(fileName='wall-', recorders=['loads'])], .25
 	O.run(steps, wait=True)
@@ -202,6 +202,12 @@ print(json.dumps([same, [left, pull * direction[0]], [sheet.moments[0], sheet.mo
 	assert max(map(abs, free)) < 1e-6
 	assert told == ['load0_anchor0', 'load0_axialForce', 'load0_moment', 'load0_shearForce']
 	assert cells > 0
+
+
+def test_a_wall_that_only_friction_bears_needs_pressure_first(yade):
+	"""In ground without stress its friction bears nothing: it once fell by 2.6 m in the first step, until it hung on its anchor."""
+	kind, sentence = outcomesOf(yade.folder, wall, ["excavated(1, fixFoot='')"])["excavated(1, fixFoot='')"]
+	assert kind == 'RuntimeError' and 'loads[0] finds no equilibrium' in sentence and 'slide along itself' in sentence and 'fix an end' in sentence, sentence
 
 
 sheetPile = block + '''
@@ -698,3 +704,21 @@ for dug in 2.5, 4.5, 5.5, 6.25:
 	stages = dict(part.split(' m\n', 1) for part in run.stderr.split('dug out: ')[1:])
 	assert {dug: 'a wall may stand on its tip' in told for dug, told in stages.items()} == {'2.5': False, '4.5': False, '5.5': False, '6.25': True}
 	assert 'the vertex of loads[0] at (' in stages['6.25']
+
+
+def test_a_smooth_wall_does_not_leave_the_ground_along_itself(yade):
+	"""Nothing holds it along itself: it once ended 9 m below its place."""
+	outcome = outcomesOf(yade.folder, block + '''
+def lean():
+	O.reset()
+	O.materials.append(MpmMohrCoulombMat(density=2000, cohesion=6e3, frictionAngle=.5, dilationAngle=.1, young=1e6, poisson=.3, label='soil'))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (6, 0), (6, 3), (0, 3)]), MpmGrid(cellSize=.5), 2, 'soil'))
+	wall = MpmBeam(line=[(1.8645641239037907, 3), (2.0411199336369785, 1.03)], axialStiffness=1e7, bendingStiffness=1e6, adhesion=0)
+	load = MpmTraction(surface=[(1.8545641239037907, 3), (0, 3)], pressure=6e3)
+	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(6, -inf, -inf), fix='x')]
+	O.engines = [MpmImplicitEngine(grid=MpmGrid(cellSize=.5), gravity=(0, -10, 0), boundaries=held, loads=[wall, load], gravityCurve=[(0, 0), (.5, 1)], newton=MpmNewton(minStep=1/4), verbosity=0)]
+	O.dt = .25
+	O.run(3, wait=True)
+''', ['lean()'])
+	kind, sentence = outcome['lean()']
+	assert kind == 'RuntimeError' and 'in the soil around it, more than a cell' in sentence and 'adhesion' in sentence, sentence

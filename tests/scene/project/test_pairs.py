@@ -73,6 +73,11 @@ def test_point_loads_go_with_the_weight_of_a_stage(tmp_path, monkeypatch):
 	assert not findings(tmp_path, [('plane vonMises static pressure pointLoad excavate'.split(), 1039)], monkeypatch)
 
 
+def test_a_beam_that_nothing_holds_along_itself_stays(tmp_path, monkeypatch):
+	"""Round-off of a pivot, and springs that all yield, once moved it by millimetres to metres."""
+	assert not findings(tmp_path, [('beams', seed) for seed in (18, 65, 81)], monkeypatch, threads=1)
+
+
 @pytest.mark.parametrize('kind', kinds)
 def test_scenes_of_a_kind_do_not_depend_on_how_they_are_looked_at(tmp_path, monkeypatch, kind):
 	"""Some of those that scripts/pairs --kind draws: with half the cell size and half the time step, too."""
