@@ -131,8 +131,8 @@ if options.travel:
 	print(f'{len(found)} equilibria, {time.time() - began:.0f} s')
 	picture('plough', 'plasticStrain')
 	figure, axis = plt.subplots(figsize=(7, 3.2), layout='constrained')
-	for column, label in (1, 'of the grains'), (4, 'of the ground'):
-		axis.plot(found[:, 0], -found[:, column], label=label, linewidth=0.9)
+	for column, label in (1, 'grains'), (4, 'ground'):
+		axis.plot(found[:, 0], -found[:, column], label=label)
 	axis.set(xlabel='travel [m]', ylabel='force against the plough [N]')
 	axis.legend(frameon=False)
 	figure.savefig(os.path.join(options.out, 'force.png'), dpi=110)
