@@ -104,12 +104,12 @@ def exponent(a, values):
 def drawFilm(name, film, size, aspect):
 	far = np.quantile(film[-1][1][:, 0], 0.999) + 0.1
 	figure, axes = plt.subplots(3, 2, figsize=(12, 1 + 3 * (0.3 + 5 * aspect / far)), sharex=True, sharey=True, layout='constrained')
-	figure.supxlabel('x / L', fontsize=10), figure.supylabel('y / L', fontsize=10)
+	figure.supxlabel('x / L [-]', fontsize=12), figure.supylabel('y / L [-]', fontsize=12)
 	for ax, (t, pos, speed, _) in zip(axes.flat, film):
 		dots = ax.scatter(pos[:, 0], pos[:, 1], s=size, c=speed / np.sqrt(g * aspect * L), cmap='viridis', vmin=0, vmax=1, linewidths=0)
 		ax.set(aspect='equal', ylim=(0, 1.03 * aspect), xlim=(0, far))
-		ax.set_title(f't = {t:.2f} sqrt(H / g)', fontsize=9)
-	figure.colorbar(dots, ax=axes, label='speed / sqrt(g H)')
+		ax.set_title(f't = {t:.2f} sqrt(H / g)')
+	figure.colorbar(dots, ax=axes, label='speed / sqrt(g H) [-]')
 	figure.savefig(os.path.join(options.out, name), dpi=110)
 	plt.close(figure)
 
