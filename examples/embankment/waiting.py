@@ -102,7 +102,7 @@ def inStages():
 	middle = max((b for b in O.bodies if b.state.pos[0] < options.cellSize / 2), key=lambda b: b.state.pos[1]).id
 	solver.flow = MpmFlow(unitWeight=1e4, drains=[MpmDrain(surface=[(width, 0), (0, 0)])])
 	begin, curve, factors = O.time, [(0., 0., 0.)], []
-	figure, axes = plt.subplots((options.layers + 1) // 2 + 1, 2, figsize=(12, 2.2 * ((options.layers + 1) // 2) + 3.4), layout='constrained')
+	figure, axes = plt.subplots((options.layers + 1) // 2 + 1, 2, figsize=(12, 2.4 * ((options.layers + 1) // 2) + 3.4), layout='constrained')
 
 	def go(lengths):
 		for days in lengths:
@@ -113,7 +113,9 @@ def inStages():
 		place(n, grid)
 		go([1.] * 5)
 		factors.append([safety()] if options.safety else [])
-		mpm.plot('excessPressure', ax=axes.flat[n - 1], range=(0, 45e3)).set_title(f'layer {n}, {curve[-1][0]:.0f} days: excess pressure')
+		section = mpm.plot('excessPressure', ax=axes.flat[n - 1], range=(0, 45e3))
+		section.set_title(f'layer {n}, {curve[-1][0]:.0f} days: excess pore pressure')
+		section.child_axes[0].set_ylabel('[kPa]')
 		lengths = 1.6**np.arange(8)
 		go(lengths * (options.waiting / lengths.sum()))
 		if options.safety: factors[-1].append(safety())
@@ -128,14 +130,15 @@ slow = drained()
 curve, factors, figure, axes = inStages()
 print(f'{1e3 * slow:.0f} mm if all is drained, {1e3 * curve[-1, 1]:.0f} mm after {curve[-1, 0] / 365:.0f} years, {time.time() - begin:.0f} s')
 left, right = axes[-1]
-left.plot(curve[:, 0] + 1, 1e3 * curve[:, 1], 'o-', markersize=3)
-left.axhline(1e3 * slow, color='grey', linewidth=.8)
-left.set(xscale='log', xlabel='time + 1 [days]', title='settlement in the middle [mm]; grey: all drained')
+left.plot(curve[:, 0] + 1, 1e3 * curve[:, 1], 'o-', markersize=4, label='in stages')
+left.axhline(1e3 * slow, color='k', linestyle='--', label='all drained')
+left.set(xscale='log', xlabel='time + 1 [days]', ylabel='settlement at the centre [mm]')
+left.legend(frameon=False)
 left.invert_yaxis()
-right.plot(curve[:, 0] + 1, curve[:, 2] / 1e3, 'o-', markersize=3)
+right.plot(curve[:, 0] + 1, curve[:, 2] / 1e3, 'o-', markersize=4)
 right.margins(y=.2)
-right.set(xscale='log', xlabel='time + 1 [days]', title='largest excess pressure [kPa]')
+right.set(xscale='log', xlim=(0.1, None), xlabel='time + 1 [days]', ylabel='largest excess pressure [kPa]')
 if options.safety:
 	for n, (at, later) in enumerate(factors):
-		right.annotate(f'F {at:.2f}, then {later:.2f}', (n * (5 + options.waiting) + 6, curve[5 + 13 * n, 2] / 1e3), fontsize=8, ha='right')
+		right.annotate(f'F {at:.2f}, then {later:.2f}', (n * (5 + options.waiting) + 6, curve[5 + 13 * n, 2] / 1e3), fontsize=11, ha='right', xytext=(-4, 3), textcoords='offset points')
 figure.savefig(os.path.join(options.out, 'waiting.png'), dpi=100)
