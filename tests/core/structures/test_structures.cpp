@@ -147,8 +147,8 @@ namespace {
 		EXPECT_NEAR(4 - beam.positions.front()[0], 4 * (1 + pull / EA) / (1 + N / EA), 1e-9);
 	}
 
-	/// Smooth beam without weight between soil that settles on both sides: a pivot that is round-off must not move it
-	/// along itself.
+	/// Smooth beam without weight between soil that settles on both sides: a pivot that is round-off must not move
+	/// it along itself.
 	TEST(Beams, StayWhereNothingHoldsThemAlongThemselves)
 	{
 		for (const double axialStiffness : { 1e7, 1e9 }) {
