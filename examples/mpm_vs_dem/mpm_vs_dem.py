@@ -218,7 +218,7 @@ for name, history in ('DEM', dem), ('MPM', continuum):
 		surfaces.plot(*np.transpose(profile(history.states[at], H / 12)), style, color=colours[name], label=f'{name}, N = {at:g}')
 		height, stress = verticalStress(history.states[at])
 		stresses.plot(-stress / 1e3, height, 'o' if name == 'DEM' else '-', color=colours[name], alpha=1 if at == shown[1] else 0.5, label=f'{name}, N = {at:g}')
-curves.set(xlabel='movement [m]', ylabel='stability number $\\gamma H / c_u$', title='Movement', ylim=(0, None))
+curves.set(xlabel='movement [m]', ylabel='stability number $N = \\gamma H / c_u$ [-]', title='Movement', ylim=(0, None))
 surfaces.set(xlabel='x [m]', ylabel='y [m]', title='Surface', ylim=(0, 1.1 * H))
 stresses.set(xlabel='vertical pressure [kPa], mean over 0 < x < H', ylabel='initial height y [m]', title='Stress', xlim=(0, None))
 for panel in curves, surfaces, stresses:
@@ -229,6 +229,7 @@ moved = np.linalg.norm(state['pos'] - state['pos0'], axis=1)
 discs = grainView.add_collection(PatchCollection([Circle(p[:2], r[0]) for p, r in zip(state['pos'], state['halfSize'])], array=moved, cmap='viridis', clim=(0, limit), edgecolors='none'))
 figure.colorbar(discs, cax=grainView.inset_axes([1.02, 0, 0.025, 1]), label='displacement [m]')
 mpm.plot('displacement', ax=pointView, range=(0, limit))
+if pointView.get_legend(): pointView.get_legend().remove()  # would lie on the title
 for view, title in (grainView, f'DEM: {grainCount} grains, {demSeconds:.0f} s of CPU'), (pointView, f'MPM: {len(O.bodies)} points, {mpmSeconds:.0f} s of CPU'):
 	view.plot([0, L, L], [H, H, 0], 'k--', linewidth=0.8)
 	view.set(aspect='equal', xlim=(-0.2, 1.45 * L), ylim=(-0.3, 1.1 * H), xlabel='x [m]', ylabel='y [m]', title=f'{title}, N = {final:g}')
