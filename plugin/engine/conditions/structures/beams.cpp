@@ -148,7 +148,8 @@ namespace {
 
 void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
-	inItsWay = model.processes->size() > 1 ? "several processes" : cannotPart(around.analysis);
+	inItsWay       = cannotPart(around.analysis);
+	processesCount = model.processes->size();
 	for (const Listed& listed : around.analysis.conditions())
 		waterFlows = waterFlows || string(listed.list) == "flow";
 	for (const Listed& listed : group) {
@@ -199,6 +200,17 @@ void Beams::requirePermeable() const
 	}
 }
 
+// Several processes cannot share nodes with affine constraints, without which soil stays one body across a beam.
+void Beams::requireWhole() const
+{
+	for (const auto& structure : structures)
+		if (structure.beam->layer > 0)
+			throw std::invalid_argument(gimpm::sentence(
+			        structure.beam->name, ", an MpmBeam, has soil on both of its sides, which ", processesCount,
+			        " processes cannot part as one does, so that its moments would be wrong by 8 % and more. Start the script in one process, with more threads "
+			        "(scripts/run -j)."));
+}
+
 void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
 	if (!inItsWay.empty()) {
@@ -206,6 +218,7 @@ void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 		return requirePermeable();
 	}
 	gimpm::partSoil(beams(), cloud, model.grid);
+	if (processesCount > 1) requireWhole();
 	sides = gimpm::sidesOf(beams(), cloud.position, model.grid.cellSize);
 }
 

@@ -33,10 +33,12 @@ private:
 	vector<int>                 sides;    // sides of points, as the step begins
 	vector<size_t>              crossed;  // points that have gone through a structure, by structure
 
-	bool waterFlows = false; // MpmFlow, which knows of no beams
+	bool waterFlows     = false; // MpmFlow, which knows of no beams
+	int  processesCount = 1;
 
 	vector<gimpm::Beam*> beams();
 	void                 requirePermeable() const;
+	void                 requireWhole() const;
 };
 
 } // namespace yade
