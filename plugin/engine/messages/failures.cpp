@@ -217,8 +217,8 @@ string warningOfShare(const Analysis& engine)
 	std::ostringstream text;
 	text << "in the step to O.time = " << engine.loadTime << ", load factor " << engine.loadFactor << ", the ghost stabilisation took up "
 	     << std::lround(100 * engine.ghostShare)
-	     << " % of the work at the edge of the body (ghostShare), which no stress in the points bears. Where soil flows there, loads may come out too high and what "
-	        "stands may not stand: repeat with twice as many steps, or, in one process and without MpmFlow, with ghost=MpmGhost(where='aggregates', memory=1, workTolerance=0.03), "
+	     << " % of the work at the edge of the body (ghostShare), which no stress in the points bears. Where soil flows there, loads may come out too high, by nothing to twice "
+	        "that, and what stands may not stand: repeat with twice as many steps, or, in one process and without MpmFlow, with ghost=MpmGhost(where='aggregates', memory=1, workTolerance=0.03), "
 	        "which goes on until stress bears the load. This is said once; plotData() tells of later steps.";
 	return text.str();
 }

@@ -103,6 +103,7 @@ assert O.engines[0].ghostShare == share
 ''')
 	output = said.stdout + said.stderr
 	assert output.count('the ghost stabilisation took up') == 1 and output.count('% of the work at the edge of the body (ghostShare)') == 1
+	assert 'loads may come out too high, by nothing to twice that, and what stands may not stand' in output
 
 
 def test_a_face_that_limit_analysis_does_not_let_stand_is_told(yade):
