@@ -50,6 +50,14 @@ void defineHelpers()
 	        },
 	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their centres and half sizes.");
 	py::def(
+	        "gridCells", +[](const string& kind, const MpmImplicitEngine& engine) { return gridCellsForPython(kind, engine); },
+	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
+}
+
+void defineStages()
+{
+	using namespace yade;
+	py::def(
 	        "actInPart",
 	        +[](MpmMaterial& material, Real share, bool isDugOut) {
 		        const ValueLock lock;
@@ -57,8 +65,14 @@ void defineHelpers()
 	        },
 	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small; and whether they are being dug out.");
 	py::def(
-	        "gridCells", +[](const string& kind, const MpmImplicitEngine& engine) { return gridCellsForPython(kind, engine); },
-	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
+	        "lookAtPlaced",
+	        +[](MpmImplicitEngine& engine, const py::list& bodies) {
+		        vector<Body::id_t> ids;
+		        for (py::ssize_t i = 0; i < py::len(bodies); ++i)
+			        ids.push_back(py::extract<Body::id_t>(bodies[i]));
+		        engine.lookAtPlaced(ids);
+	        },
+	        "For mpm.stages: warns of points that have been placed, by their ids, if none of them fits into the grid of the engine.");
 }
 
 void defineFilling()
@@ -79,6 +93,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	using namespace yade;
 	py::scope().attr("version") = MPM_VERSION;
 	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
+	defineStages();
 	defineFilling();
 	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");

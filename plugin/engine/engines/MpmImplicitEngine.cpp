@@ -299,6 +299,16 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 	return first;
 }
 
+void MpmImplicitEngine::lookAtPlaced(const vector<Body::id_t>& ids)
+{
+	if (!grid) return;
+	const std::set<Body::id_t> known(ids.begin(), ids.end());
+	vector<MaterialPoint>      placed;
+	for (const MaterialPoint& point : materialPoints(*ownScene(), mask))
+		if (known.count(point.id)) placed.push_back(point);
+	warnOfPoints(grid->dim == 3 ? plausibility.warningOfPlaced(placed, grid->lattice<3>()) : plausibility.warningOfPlaced(placed, grid->lattice<2>()));
+}
+
 template <int Dim> void MpmImplicitEngine::warnOf(const Job<Dim>& job)
 {
 	const ValueLock lock;

@@ -126,6 +126,9 @@ public:
 	// or std::invalid_argument in all of them.
 	Body::id_t add(NewPoints&);
 
+	// Warns of points with these ids, which have come in between two steps, if none of them fits into the grid.
+	void lookAtPlaced(const vector<Body::id_t>& ids);
+
 protected:
 	// Reactions of the step before, where they matter.
 	virtual const vector<Vector3r>& formerReactions() const { return reactions; }

@@ -264,6 +264,13 @@ void Plausibility::say(vector<string>& sentences, const string& about, const str
 	isSaid = !sentence.empty();
 }
 
+template <int Dim> string Plausibility::warningOfPlaced(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
+{
+	vector<string> sentences;
+	say(sentences, "lattice", warningOfLattice<Dim>(points, grid));
+	return sentences.empty() ? "" : sentences.front();
+}
+
 template <int Dim>
 vector<string> Plausibility::look(
         const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, double& time)
@@ -318,6 +325,7 @@ vector<string> Plausibility::warningsOfResult(const Analysis& engine, const vect
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
+	template string         Plausibility::warningOfPlaced<Dim>(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);                                     \
 	template bool           Plausibility::knows<Dim>(const vector<MaterialPoint>&) const;                                                                  \
 	template vector<string> Plausibility::warningsOfResult(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);                  \
 	template vector<string> Plausibility::look(                                                                                                            \

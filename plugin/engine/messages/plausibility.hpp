@@ -25,6 +25,10 @@ public:
 	template <int Dim>
 	vector<string> look(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double& time);
 
+	// As mpm.stages places points: the next step may look at all points together, among which they would not be
+	// seen.
+	template <int Dim> string warningOfPlaced(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);
+
 	// After it.
 	template <int Dim> vector<string> warningsOfResult(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
 

@@ -44,6 +44,7 @@ def place(bodies, steps=1, solver=None):
 	"""
 	solver, steps = _static('place', solver), _number('place', steps)
 	ids, materials = _added(bodies, solver) if isinstance(bodies, range) else _append(bodies, solver)
+	_library.lookAtPlaced(solver, list(ids))
 	if steps > 1: _begin('placed', solver, steps, {label: _twin(material, f'{label}/placed', ids, density=material.density / steps) for label, material in materials.items()})
 	return ids
 
