@@ -16,8 +16,8 @@ string warningOfRolling(const Body& body, const Vector3r& force, Real cellSize, 
 	if (!((state.vel + state.angVel.cross(lever)).norm() < mostSlip * state.vel.norm())) return "";
 	return gimpm::sentence(
 	        "body #", body.id, ", a Sphere with ", sphere->radius / cellSize,
-	        " cells over its radius, is free and rolls: with two cells it is 16 % late in ", engine,
-	        ", whose soil has no inertia, and 6 % in MpmDynamicEngine. Take MpmDynamicEngine, and four cells, with which it is 1 % off.");
+	        " cells over its radius, is free and rolls: on few cells it is late, most of all in ", engine,
+	        ", whose soil has no inertia. Take MpmDynamicEngine, and four cells over the radius.");
 }
 
 } // namespace yade

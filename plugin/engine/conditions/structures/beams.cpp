@@ -207,7 +207,7 @@ void Beams::requireWhole() const
 		if (structure.beam->layer > 0)
 			throw std::invalid_argument(gimpm::sentence(
 			        structure.beam->name, ", an MpmBeam, has soil on both of its sides, which ", processesCount,
-			        " processes cannot part as one does, so that its moments would be wrong by 8 % and more. Start the script in one process, with more threads "
+			        " processes cannot part as one does, so that its moments would be wrong. Start the script in one process, with more threads "
 			        "(scripts/run -j)."));
 }
 
