@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/ghost.hpp"
+#include "core/grid/neighbours.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -52,14 +53,6 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 					if (code < 0) continue;
 					f(face.node[i][s], face.node[j][t], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass(face, s, t, h));
 				}
-}
-
-/// Calls f(neighbour, level of the common face) for the cells beyond a face of a cell, where no line parts the body.
-template <int Dim, class F> void forNeighbours(Key cell, int axis, bool isAbove, const Grid<Dim>& grid, F&& f)
-{
-	if (grid.refinement) return grid.refinement->forLeavesBeyond(cell, axis, isAbove, f);
-	const Key step = Grid<Dim>::keyStep(axis);
-	f(grid.first(isAbove ? cell + step : cell - step), 0);
 }
 
 /// True if there is no cell beyond a face, on either side of a line that parts the body there.

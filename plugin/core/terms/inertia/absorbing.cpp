@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/inertia/absorbing.hpp"
+#include "core/grid/neighbours.hpp"
 #include "core/grid/surface.hpp"
 #include "core/terms/overlap.hpp"
 #include <algorithm>
@@ -35,13 +36,6 @@ template <int Dim> bool cutsLeaf(const ConstrainedBox<Dim>& box, Key leaf)
 	if ((low.array() > box.upper.array()).any() || (high.array() < box.lower.array()).any()) return false;
 	const auto isInside = [&](const Index<Dim>& side) { return (side.array() > low.array() && side.array() < high.array()).any(); };
 	return isInside(box.lower) || isInside(box.upper);
-}
-
-/// Calls f(leaf beyond a face of a leaf).
-template <int Dim, class F> void forBeyond(Key leaf, int axis, bool isUpper, const Grid<Dim>& grid, F&& f)
-{
-	if (grid.refinement) return grid.refinement->forLeavesBeyond(leaf, axis, isUpper, [&](Key beyond, int) { f(beyond); });
-	f(grid.first(isUpper ? leaf + Grid<Dim>::keyStep(axis) : leaf - Grid<Dim>::keyStep(axis)));
 }
 
 template <int Dim> Vec<Dim> centreOf(Key leaf, const Grid<Dim>& grid)
@@ -101,7 +95,7 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 			const bool isUpper = side % 2;
 			if (!holdsFace(boundary_.box, leaves[c], axis, isUpper)) continue;
 			const bool isBeyond = holdsFace(boundary_.box, leaves[c], axis, !isUpper);
-			forBeyond(leaves[c], axis, isUpper, step.grid, [&](Key beyond) {
+			forNeighbours(leaves[c], axis, isUpper, step.grid, [&](Key beyond, int) {
 				if (const int other = find(leaves, beyond); other >= 0) both.push_back(isBeyond ? c : other);
 			});
 			if (isBeyond) continue;

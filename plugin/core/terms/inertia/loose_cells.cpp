@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/inertia/loose_cells.hpp"
 #include "core/base/small_matrices.hpp"
+#include "core/grid/neighbours.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -34,13 +35,10 @@ template <int Dim> CellPairs cellPairs(const std::vector<GhostFace<Dim>>& faces,
 /// True if all neighbours across the faces of a leaf are populated.
 template <int Dim> bool isWithin(Key leaf, const std::vector<Key>& leaves, const Grid<Dim>& grid)
 {
-	bool       is    = true;
-	const auto count = [&](Key beyond, int) { is = is && find(leaves, grid.first(beyond)) >= 0; };
+	bool is = true;
 	for (int a = 0; a < Dim && is; ++a)
 		for (const bool isAbove : { false, true })
-			if (grid.refinement) grid.refinement->forLeavesBeyond(leaf, a, isAbove, count);
-			else
-				count(isAbove ? leaf + Grid<Dim>::keyStep(a) : leaf - Grid<Dim>::keyStep(a), 0);
+			forNeighbours(leaf, a, isAbove, grid, [&](Key beyond, int) { is = is && find(leaves, beyond) >= 0; });
 	return is;
 }
 
