@@ -36,24 +36,26 @@ namespace {
 				addBox(boxes, place, size, halvings);
 	}
 
-	// Cells of the largest size, and half of one around them: what deforms there has not left when the step ends.
-	template <int Dim> void addVarying(Boxes& boxes, const MpmGrid& grid, const vector<MaterialPoint>& points, int halvings)
+	// Centres of cells of the largest size.
+	template <int Dim> vector<Vector3r> varyingCells(const MpmGrid& grid, const vector<MaterialPoint>& points)
 	{
 		const gimpm::Grid<Dim>             large { grid.cellSize, grid.origin.head<Dim>() };
 		vector<gimpm::DeformedVolume<Dim>> deformed;
 		for (const auto& [id, shape, state, material] : points)
 			if (isOnGrid(state->pos, large)) deformed.push_back({ state->pos.template head<Dim>(), state->volume, state->defGrad });
+		vector<Vector3r> centres;
 		for (const auto& cell : gimpm::varyingCells<Dim>(deformed, large)) {
-			Vector3r middle             = Vector3r::Zero();
-			middle.template head<Dim>() = large.nodePosition(cell) + gimpm::Vec<Dim>::Constant(grid.cellSize / 2);
-			addBox(boxes, middle, grid.cellSize, halvings);
+			centres.push_back(Vector3r::Zero());
+			centres.back().template head<Dim>() = large.nodePosition(cell) + gimpm::Vec<Dim>::Constant(grid.cellSize / 2);
 		}
+		return centres;
 	}
 
-	void addBoxes(Boxes& boxes, const MpmAdaptation& by, const Analysis& analysis, const Scene& scene, const vector<MaterialPoint>& points, int halvings)
+	// Cells with half of one around them: what deforms there has not left when the step ends.
+	void addVarying(Boxes& boxes, const vector<Vector3r>& centres, const MpmGrid& grid, int halvings)
 	{
-		if (by.where == "contact") return addEdges(boxes, analysis, scene, halvings);
-		analysis.grid->dim == 2 ? addVarying<2>(boxes, *analysis.grid, points, halvings) : addVarying<3>(boxes, *analysis.grid, points, halvings);
+		for (const Vector3r& centre : centres)
+			addBox(boxes, centre, grid.cellSize, halvings);
 	}
 }
 
@@ -66,9 +68,14 @@ string adapt(const Analysis& analysis, const Scene& scene, const vector<Material
 		const MpmAdaptation& adaptation = *grid.adaptation[a];
 		int                  halvings   = adaptation.halvings;
 		Real                 unknowns   = 0;
+		const bool           byEdges    = adaptation.where == "contact";
+		vector<Vector3r>     varying;
+		if (!byEdges) varying = grid.dim == 2 ? varyingCells<2>(grid, points) : varyingCells<3>(grid, points);
 		for (; halvings > 0; --halvings) {
 			Boxes tried = boxes;
-			addBoxes(tried, adaptation, analysis, scene, points, halvings);
+			if (byEdges) addEdges(tried, analysis, scene, halvings);
+			else
+				addVarying(tried, varying, grid, halvings);
 			grid.adapted = std::move(tried);
 			if (!std::isfinite(adaptation.maxUnknowns)) break;
 			unknowns = unknownsOf(grid, points);
