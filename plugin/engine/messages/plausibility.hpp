@@ -25,8 +25,8 @@ public:
 	template <int Dim>
 	vector<string> look(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double& time);
 
-	// As mpm.stages places points: the next step may look at all points together, among which they would not be
-	// seen.
+	// Doubt about points that mpm.stages places: the next step may look at all points together, among which they
+	// would not be seen.
 	template <int Dim> string warningOfPlaced(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);
 
 	// After it.

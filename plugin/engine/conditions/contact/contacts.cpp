@@ -213,7 +213,6 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
 	cellSize = model.grid.cellSize;
 	inTime   = around.analysis.isDynamic();
-	engine   = around.analysis.className();
 	for (const auto& material : model.materials)
 		soil.density = std::max(soil.density, material.density);
 	soil.cellSize = cellSize, soil.answers = !around.analysis.isExplicit();
@@ -368,7 +367,7 @@ template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 	found["distance"]    = distance;
 	found["thin"]        = warningOfSmallFeatures(*system, cellSize);
 	for (size_t i = 0; i < owners.size() && !inTime; ++i)
-		if (owners[i].isFree && found["rolls"].empty()) found["rolls"] = warningOfRolling(*owners[i].body, system->loads[i].force, cellSize, engine);
+		if (owners[i].isFree && found["rolls"].empty()) found["rolls"] = warningOfRolling(*owners[i].body, system->loads[i].force, cellSize);
 	return found;
 }
 

@@ -99,7 +99,6 @@ private:
 	Real                                  dt       = 0;                   // time step of YADE
 	Real                                  cellSize = 0;                   // size of the smallest cells
 	bool                                  inTime   = false;
-	string                                engine; // its class
 	SoilAtBody                            soil;
 	string                                coefficient; // doubt about an angle of friction
 	string                                distance;    // and about where the bodies are

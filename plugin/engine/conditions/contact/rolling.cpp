@@ -4,7 +4,7 @@
 
 namespace yade {
 
-string warningOfRolling(const Body& body, const Vector3r& force, Real cellSize, const string& engine)
+string warningOfRolling(const Body& body, const Vector3r& force, Real cellSize)
 {
 	constexpr Real far = 0.5, mostSlip = 0.5, fewest = 4 - 1e-6; // [rad], [-], cells
 	const State&   state  = *body.state;
@@ -16,8 +16,8 @@ string warningOfRolling(const Body& body, const Vector3r& force, Real cellSize, 
 	if (!((state.vel + state.angVel.cross(lever)).norm() < mostSlip * state.vel.norm())) return "";
 	return gimpm::sentence(
 	        "body #", body.id, ", a Sphere with ", sphere->radius / cellSize,
-	        " cells over its radius, is free and rolls: on few cells it is late, most of all in ", engine,
-	        ", whose soil has no inertia. Take MpmDynamicEngine, and four cells over the radius.");
+	        " cells over its radius, is free and rolls: on few cells it is late, most of all in MpmImplicitEngine, whose soil has no inertia. Take "
+	        "MpmDynamicEngine, and four cells over the radius.");
 }
 
 } // namespace yade
