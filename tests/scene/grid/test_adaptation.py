@@ -64,20 +64,6 @@ print(json.dumps([found, grid.cellSize]))
 	assert all(abs(row[3] / found[0][3] - 1) < 1e-12 for row in found)
 
 
-def test_a_scene_that_is_saved_goes_on_with_the_same_bits(yade):
-	result = yade(scene + '''
-footing()
-O.run(2, wait=True)
-mpm.save('half.yade.gz')
-O.run(3, wait=True)
-whole = [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')]
-mpm.load('half.yade.gz')
-O.run(3, wait=True)
-print(json.dumps(whole == [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')]))
-''').result
-	assert result is True
-
-
 def test_unknowns_have_a_limit_and_a_warning_tells_of_it(yade):
 	run = yade(scene + '''
 grid, box = footing(halvings=3, maxUnknowns=985)
@@ -143,18 +129,18 @@ print(json.dumps(found))
 	assert all(x / 2 < 14 and max(x, y) / 2 > 2 for x, y, _ in middles)  # level ground in front of the toe, and the corner behind the slide
 
 
-def test_cells_that_follow_the_error_go_on_with_the_same_bits(yade):
-	result = yade(slope + '''
-slope()
-O.run(15, wait=True)
+@pytest.mark.parametrize('start, before, after, sizes', [(scene + 'footing()', 2, 3, 3), (slope + 'slope()', 15, 4, 2)], ids=['contact', 'error'])
+def test_a_scene_that_is_saved_goes_on_with_the_same_bits(yade, start, before, after, sizes):
+	result = yade(start + f'''
+O.run({before}, wait=True)
 mpm.save('half.yade.gz')
-O.run(4, wait=True)
+O.run({after}, wait=True)
 whole = [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')]
 mpm.load('half.yade.gz')
-O.run(4, wait=True)
+O.run({after}, wait=True)
 print(json.dumps([whole == [mpm.arrays()[name].tobytes() for name in ('pos', 'stress', 'halfSize')], len(solver.report()['cells'])]))
 ''').result
-	assert result == [True, 2]
+	assert result == [True, sizes]
 
 
 @pytest.mark.parametrize('scheme', ['newmark', 'explicit'])
