@@ -2,7 +2,7 @@
 #include "engine/engines/assignment.hpp"
 #include "core/base/checksum.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/materials/laws.hpp"
+#include "engine/materials/own_materials.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "engine/points/AtWork.hpp"
@@ -12,8 +12,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>
-#include <optional>
-#include <unordered_map>
 
 namespace yade {
 
@@ -181,26 +179,6 @@ namespace {
 		return v;
 	}
 
-	// The core's material of each point.
-	class Materials {
-	public:
-		const gimpm::Material& of(const MaterialPoint& point, const Columns& columns, size_t row)
-		{
-			const MpmMaterial& material = *point.material;
-			if (point.state->parameters.empty() && !columns.haveParameters()) {
-				const auto found = shared.find(&material);
-				return (found != shared.end() ? found : shared.emplace(&material, coreMaterial(material)).first)->second;
-			}
-			last.emplace(coreMaterial(ownMaterial.of(material, columns.parametersOf(*point.state, row))));
-			return *last;
-		}
-
-	private:
-		std::unordered_map<const MpmMaterial*, gimpm::Material> shared;
-		OwnMaterial                                             ownMaterial;
-		std::optional<gimpm::Material>                          last;
-	};
-
 	// Those with these ids; null where another process has the point.
 	vector<const MaterialPoint*> pointsWith(const Column<int64_t>& ids, const vector<MaterialPoint>& points, const gimpm::Processes& all)
 	{
@@ -250,12 +228,12 @@ void assignColumns(const py::object& ids, const py::dict& given)
 	requireSameIds(rows, *all);
 	const auto     meant = pointsWith(rows, points, *all);
 	vector<Values> values;
-	Materials      materials;
+	OwnMaterials   materials;
 	string         refusal;
 	size_t         row = 0;
 	for (; row < rows.size() && refusal.empty(); ++row)
 		if (const MaterialPoint* point = meant[row]) try {
-				values.push_back(changed(*point, columns, row, materials.of(*point, columns, row)));
+				values.push_back(changed(*point, columns, row, materials.of(*point->material, columns.parametersOf(*point->state, row))));
 			} catch (const std::invalid_argument& error) {
 				refusal = "Body #" + std::to_string(point->id) + ": " + error.what();
 			}
