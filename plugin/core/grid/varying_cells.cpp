@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/varying_cells.hpp"
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
@@ -19,40 +20,70 @@ template <int Dim> std::array<double, 1 << Dim> valuesAt(const Vec<Dim>& positio
 	return value;
 }
 
-/// Mean of the deformation gradient at a node, and its weight.
-struct NodalMean {
-	double volume = 0;
-	Mat3   sum    = Mat3::Zero();
+/// Linear function a + B d of the distance d from a node, in cells, fitted to the deformation gradients of points
+/// near it.
+template <int Dim> class NodalFit {
+public:
+	void add(const Mat<Dim>& F, const Vec<Dim>& distance, double weight)
+	{
+		Basis basis;
+		basis << 1, distance;
+		const Basis weighted = weight * basis;
+		moments_.noalias() += weighted * basis.transpose();
+		sums_.noalias() += Eigen::Map<const Components>(F.data()) * weighted.transpose();
+	}
+
+	/// Its value at the node; the mean where the points are in a row.
+	Mat<Dim> value() const
+	{
+		constexpr double singular                  = 1e-6;
+		Mat<Dim>         F                         = Mat<Dim>::Zero();
+		const auto       factor                    = moments_.ldlt();
+		const bool       isFull                    = factor.vectorD().minCoeff() > singular * moments_(0, 0);
+		const Basis      weights                   = isFull ? Basis(factor.solve(Basis::Unit(0))) : Basis(Basis::Unit(0) / moments_(0, 0));
+		Eigen::Map<Components>(F.data()).noalias() = sums_ * weights;
+		return F;
+	}
+
+private:
+	using Basis      = Eigen::Matrix<double, Dim + 1, 1>;
+	using Components = Eigen::Matrix<double, Dim * Dim, 1>;
+
+	Eigen::Matrix<double, Dim + 1, Dim + 1>   moments_ = Eigen::Matrix<double, Dim + 1, Dim + 1>::Zero();
+	Eigen::Matrix<double, Dim * Dim, Dim + 1> sums_    = Eigen::Matrix<double, Dim * Dim, Dim + 1>::Zero();
 };
 
-/// Cells with points, each with its nodes, which are looked up once.
-template <int Dim> class MeanField {
+/// Bilinear between the values at the nodes of cells with points.
+template <int Dim> class SmoothField {
 public:
-	MeanField(const std::vector<DeformedVolume<Dim>>& points, const Grid<Dim>& grid) : grid_(grid)
+	SmoothField(const std::vector<DeformedVolume<Dim>>& points, const Grid<Dim>& grid)
 	{
+		std::vector<NodalFit<Dim>> fits;
 		for (const auto& point : points) {
-			const auto [cell, value] = at(point.position);
+			const Vec<Dim>   x    = (point.position - grid.origin) / grid.cellSize;
+			const Index<Dim> cell = x.array().floor().template cast<int>();
+			at_.push_back({ numberOf(Grid<Dim>::key(cell)), valuesAt<Dim>(x - cell.template cast<double>()) });
+			fits.resize(numberOfNode_.size());
+			const auto& [number, value] = at_.back();
 			for (int corner = 0; corner < 1 << Dim; ++corner) {
-				NodalMean&   mean   = means_[nodes_[cell][corner]];
-				const double volume = value[corner] * point.volume;
-				mean.volume += volume, mean.sum += volume * point.deformationGradient;
+				Vec<Dim> distance = x - cell.template cast<double>();
+				for (int a = 0; a < Dim; ++a)
+					distance[a] -= corner >> a & 1;
+				fits[nodes_[number][corner]].add(point.deformationGradient, distance, value[corner] * point.volume);
 			}
 		}
+		for (const auto& fit : fits)
+			values_.push_back(fit.value());
 	}
 
-	/// Number of the cell of a position, and N_n there.
-	std::pair<int, std::array<double, 1 << Dim>> at(const Vec<Dim>& position)
-	{
-		const Vec<Dim>   x    = (position - grid_.origin) / grid_.cellSize;
-		const Index<Dim> cell = x.array().floor().template cast<int>();
-		return { numberOf(Grid<Dim>::key(cell)), valuesAt<Dim>(x - cell.template cast<double>()) };
-	}
+	int cellOf(std::size_t point) const { return at_[point].first; }
 
-	Mat3 operator()(int cell, const std::array<double, 1 << Dim>& value) const
+	Mat<Dim> at(std::size_t point) const
 	{
-		Mat3 F = Mat3::Zero();
+		const auto& [cell, value] = at_[point];
+		Mat<Dim> F                = Mat<Dim>::Zero();
 		for (int corner = 0; corner < 1 << Dim; ++corner)
-			if (const NodalMean& mean = means_[nodes_[cell][corner]]; mean.volume > 0) F += value[corner] / mean.volume * mean.sum;
+			F += value[corner] * values_[nodes_[cell][corner]];
 		return F;
 	}
 
@@ -66,58 +97,52 @@ private:
 		if (isNew) {
 			cells_.push_back(cell);
 			nodes_.emplace_back();
-			for (int corner = 0; corner < 1 << Dim; ++corner) {
-				const auto [node, isFirst] = numberOfNode_.emplace(cell + Grid<Dim>::keyOffset(corner), int(means_.size()));
-				if (isFirst) means_.emplace_back();
-				nodes_.back()[corner] = node->second;
-			}
+			for (int corner = 0; corner < 1 << Dim; ++corner)
+				nodes_.back()[corner] = numberOfNode_.emplace(cell + Grid<Dim>::keyOffset(corner), int(numberOfNode_.size())).first->second;
 		}
 		return last_ = found->second;
 	}
 
-	Grid<Dim>                              grid_;
-	std::unordered_map<Key, int>           numberOfCell_, numberOfNode_;
-	std::vector<Key>                       cells_;
-	std::vector<std::array<int, 1 << Dim>> nodes_; // by cell
-	std::vector<NodalMean>                 means_; // by node
-	int                                    last_ = -1;
+	std::unordered_map<Key, int>                              numberOfCell_, numberOfNode_;
+	std::vector<Key>                                          cells_;
+	std::vector<std::array<int, 1 << Dim>>                    nodes_;  // by cell
+	std::vector<Mat<Dim>>                                     values_; // by node
+	std::vector<std::pair<int, std::array<double, 1 << Dim>>> at_;     // cell and N_n, by point
+	int                                                       last_ = -1;
 };
-
-/// Numbers of the largest errors that together have a share of their sum.
-std::vector<int> largest(const std::vector<double>& errors, double sum, double share)
-{
-	std::vector<int> sorted(errors.size());
-	std::iota(sorted.begin(), sorted.end(), 0);
-	std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return errors[a] > errors[b]; });
-	std::size_t count = 0;
-	for (double covered = 0; covered < share * sum && count < sorted.size(); ++count)
-		covered += errors[sorted[count]];
-	sorted.resize(count);
-	return sorted;
-}
 
 } // namespace
 
-template <int Dim> std::vector<Index<Dim>> varyingCells(const std::vector<DeformedVolume<Dim>>& points, const Grid<Dim>& grid)
+template <int Dim> CellErrors<Dim>::CellErrors(const std::vector<DeformedVolume<Dim>>& points, const Grid<Dim>& grid)
 {
-	constexpr double    share = 0.98, leastPart = 0.05, roundOff = 1e-12;
-	MeanField<Dim>      mean(points, grid);
-	std::vector<double> errors(mean.cells().size(), 0);
-	double              whole = 0;
-	for (const auto& point : points) {
-		const auto [cell, value] = mean.at(point.position);
-		errors[cell] += point.volume * (point.deformationGradient - mean(cell, value)).squaredNorm();
-		whole += point.volume * ((point.deformationGradient - Mat3::Identity()).squaredNorm() + roundOff * roundOff);
+	constexpr double       roundOff = 1e-12;
+	const SmoothField<Dim> smooth(points, grid);
+	errors_.assign(smooth.cells().size(), 0);
+	for (std::size_t p = 0; p < points.size(); ++p) {
+		const Mat<Dim>& F = points[p].deformationGradient;
+		errors_[smooth.cellOf(p)] += points[p].volume * (F - smooth.at(p)).squaredNorm();
+		whole_ += points[p].volume * ((F - Mat<Dim>::Identity()).squaredNorm() + roundOff * roundOff);
 	}
-	const double sum = std::accumulate(errors.begin(), errors.end(), 0.);
-	if (!(sum > leastPart * leastPart * whole)) return {};
+	for (const Key cell : smooth.cells())
+		cells_.push_back(Grid<Dim>::index(cell));
+	sum_ = std::accumulate(errors_.begin(), errors_.end(), 0.);
+}
+
+template <int Dim> std::vector<Index<Dim>> CellErrors<Dim>::largest(double part) const
+{
+	std::vector<int> sorted(errors_.size());
+	std::iota(sorted.begin(), sorted.end(), 0);
+	std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return errors_[a] > errors_[b]; });
 	std::vector<Index<Dim>> cells;
-	for (const int cell : largest(errors, sum, share))
-		cells.push_back(Grid<Dim>::index(mean.cells()[cell]));
+	double                  rest = sum_;
+	for (std::size_t i = 0; i < sorted.size() && rest > part * part * whole_; ++i) {
+		rest -= errors_[sorted[i]];
+		cells.push_back(cells_[sorted[i]]);
+	}
 	return cells;
 }
 
-template std::vector<Index<2>> varyingCells(const std::vector<DeformedVolume<2>>&, const Grid<2>&);
-template std::vector<Index<3>> varyingCells(const std::vector<DeformedVolume<3>>&, const Grid<3>&);
+template class CellErrors<2>;
+template class CellErrors<3>;
 
 } // namespace gimpm

@@ -59,8 +59,9 @@ struct RunResults {
 	Real             lastLoadIncrement = 0;
 	Real             stepPart          = 1;
 	vector<Vector3r> reactions;
-	Real             wallOverlap = 0;
-	Real             ghostShare  = std::numeric_limits<Real>::quiet_NaN();
+	Real             wallOverlap  = 0;
+	Real             ghostShare   = std::numeric_limits<Real>::quiet_NaN();
+	Real             mergedEnergy = 0;
 
 	// Output of a number besides the attribute of its name.
 	enum Told { byAttribute, byReport, byReportAndPlot };
@@ -135,6 +136,8 @@ template <class V> void RunResults::results(V&& v)
 	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as constrained.", nonNegative);
 	v("ghostShare", &R::ghostShare, reached(&StepReport::ghostShare), byReportAndPlot, readonly,
 	  "Part [-] of the work at the edge of the body in the last static step that the ghost stabilisation took up; NaN with inertia or *flow*.", any);
+	v("mergedEnergy", &R::mergedEnergy, Kept(), byReportAndPlot, readonly,
+	  "Elastic and kinetic energy [J] that halves of points have lost so far as they became one again (MpmAdaptation.merge).", any);
 }
 
 } // namespace yade

@@ -77,19 +77,19 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];
 	}
-	data["kineticEnergy"] = now.kinetic;
-	data["elasticEnergy"] = now.elastic;
-	data["loadWork"]      = loadWork;
-	data["boundaryWork"]  = boundaryWork;
-	data["contactWork"]   = contactWork;
-	data["impactWork"]    = impactWork;
-	data["ghostWork"]     = ghostWork;
-	data["gridWork"]      = gridWork;
-	data["plasticWork"]   = plasticWork;
-	data["dampingWork"]   = dampingWork;
-	data["loosePoints"]   = loosePoints;
-	data["energyImbalance"]
-	        = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork + dampingWork;
+	data["kineticEnergy"]   = now.kinetic;
+	data["elasticEnergy"]   = now.elastic;
+	data["loadWork"]        = loadWork;
+	data["boundaryWork"]    = boundaryWork;
+	data["contactWork"]     = contactWork;
+	data["impactWork"]      = impactWork;
+	data["ghostWork"]       = ghostWork;
+	data["gridWork"]        = gridWork;
+	data["plasticWork"]     = plasticWork;
+	data["dampingWork"]     = dampingWork;
+	data["loosePoints"]     = loosePoints;
+	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork
+	        + dampingWork + mergedEnergy;
 }
 
 template <int Dim> void MpmDynamicEngine::makeMoving(Job<Dim>& job, const vector<MaterialPoint>& points)

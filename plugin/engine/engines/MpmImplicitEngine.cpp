@@ -12,6 +12,7 @@
 #include "engine/engines/Threads.hpp"
 #include "engine/engines/adaptation.hpp"
 #include "engine/engines/build_model.hpp"
+#include "engine/engines/merging.hpp"
 #include "engine/engines/moving.hpp"
 #include "engine/engines/step_errors.hpp"
 #include "engine/messages/failures.hpp"
@@ -158,11 +159,13 @@ bool MpmImplicitEngine::isTimeForSlips(Real begin)
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	adaptCells();
+	double       adapting = 0;
+	adaptCells(adapting);
 	if (hasQuestions()) askFunctions<Dim>(agreement);
 	Job<Dim> job      = prepare<Dim>(agreement);
 	double   agreeing = 0;
 	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
+	if (adapting > 0) addTime(*timingDeltas, "adapt", adapting);
 	{
 		const gimpm::Stopwatch watch(agreeing);
 		agreement.reach(*this, job.cloud, *job.model.division);
@@ -188,13 +191,17 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 }
 
 // Cells follow what moves, before anything is asked about them.
-void MpmImplicitEngine::adaptCells()
+void MpmImplicitEngine::adaptCells(double& time)
 {
 	const ValueLock lock;
 	if (!grid || (grid->adaptation.empty() && grid->adapted.empty())) return;
+	const gimpm::Stopwatch watch(time);
 	requireRunnable(*this);
 	updateMaterialPoints(points, *scene, mask);
 	warn(plausibility.once("maxUnknowns", adapt(*this, *scene, points)));
+	const bool areKnown = grid->dim == 3 ? plausibility.knows<3>(points) : plausibility.knows<2>(points);
+	mergedEnergy += mergeHalves(*this, *scene, points);
+	if (areKnown) grid->dim == 3 ? plausibility.know<3>(points) : plausibility.know<2>(points);
 }
 
 bool MpmImplicitEngine::hasQuestions() const

@@ -148,7 +148,7 @@ private:
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> void         askFunctions(Agreement&);
 	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;
-	void                            adaptCells();
+	void                            adaptCells(double& time);
 	bool                            hasQuestions() const;
 	template <int Dim> Job<Dim>     prepare(Agreement&);
 	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);

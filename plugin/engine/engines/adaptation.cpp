@@ -36,26 +36,58 @@ namespace {
 				addBox(boxes, place, size, halvings);
 	}
 
-	// Centres of cells of the largest size.
-	template <int Dim> vector<Vector3r> varyingCells(const MpmGrid& grid, const vector<MaterialPoint>& points)
+	template <int Dim> vector<gimpm::DeformedVolume<Dim>> deformedVolumes(const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 	{
-		const gimpm::Grid<Dim>             large { grid.cellSize, grid.origin.head<Dim>() };
-		vector<gimpm::DeformedVolume<Dim>> deformed;
+		vector<gimpm::DeformedVolume<Dim>> all;
 		for (const auto& [id, shape, state, material] : points)
-			if (isOnGrid(state->pos, large)) deformed.push_back({ state->pos.template head<Dim>(), state->volume, state->defGrad });
-		vector<Vector3r> centres;
-		for (const auto& cell : gimpm::varyingCells<Dim>(deformed, large)) {
-			centres.push_back(Vector3r::Zero());
-			centres.back().template head<Dim>() = large.nodePosition(cell) + gimpm::Vec<Dim>::Constant(grid.cellSize / 2);
+			if (isOnGrid(state->pos, grid))
+				all.push_back({ state->pos.template head<Dim>(), state->volume, state->defGrad.template topLeftCorner<Dim, Dim>() });
+		return all;
+	}
+
+	// Centres of cells that vary too much for their size, for each size that is halved.
+	struct Varying {
+		vector<vector<Vector3r>> bySize;
+		bool                     isServed = true; // by the cells of the last step, which are not many more
+	};
+
+	template <int Dim> Varying varyingCells(const MpmGrid& grid, const vector<MaterialPoint>& points, int halvings)
+	{
+		constexpr double mostError = 0.05; // of cells that are not halved, as a part of the deformation
+		constexpr double fewest    = 0.75; // of the cells of the last step
+		const auto       isOften   = [&](const auto& box) { return box->halvings > halvings; };
+		Varying          all;
+		all.isServed       = std::none_of(grid.adapted.begin(), grid.adapted.end(), isOften);
+		const auto last    = grid.lattice<Dim>();
+		const auto volumes = deformedVolumes<Dim>(last, points);
+		for (int h = 0; h < halvings; ++h) {
+			const gimpm::Grid<Dim> cells { grid.cellSize / (1 << h), grid.origin.head<Dim>() };
+			const auto centre = [&](const auto& cell) { return (cells.nodePosition(cell) + gimpm::Vec<Dim>::Constant(cells.cellSize / 2)).eval(); };
+			const auto isHalved = [&](const auto& cell) { return gimpm::largestHalf<Dim>(last, centre(cell)) < 0.3 * cells.cellSize; };
+			const auto isOfSize = [&](const auto& box) { return box->halvings == h + 1; };
+			const gimpm::CellErrors<Dim> errors(volumes, cells);
+			vector<Vector3r>             centres;
+			for (const auto& cell : errors.largest(mostError)) {
+				centres.push_back(Vector3r::Zero());
+				centres.back().template head<Dim>() = centre(cell);
+			}
+			const auto before = std::count_if(grid.adapted.begin(), grid.adapted.end(), isOfSize);
+			all.isServed      = all.isServed && errors.without(isHalved) <= mostError && centres.size() >= fewest * before;
+			all.bySize.push_back(std::move(centres));
 		}
-		return centres;
+		return all;
+	}
+	Varying varyingCells(const MpmGrid& grid, const vector<MaterialPoint>& points, int halvings)
+	{
+		return grid.dim == 2 ? varyingCells<2>(grid, points, halvings) : varyingCells<3>(grid, points, halvings);
 	}
 
 	// Cells with half of one around them: what deforms there has not left when the step ends.
-	void addVarying(Boxes& boxes, const vector<Vector3r>& centres, const MpmGrid& grid, int halvings)
+	void addVarying(Boxes& boxes, const vector<vector<Vector3r>>& bySize, const MpmGrid& grid, int halvings)
 	{
-		for (const Vector3r& centre : centres)
-			addBox(boxes, centre, grid.cellSize, halvings);
+		for (int h = 0; h < halvings; ++h)
+			for (const Vector3r& centre : bySize[h])
+				addBox(boxes, centre, grid.cellSize / (1 << h), h + 1);
 	}
 }
 
@@ -69,13 +101,13 @@ string adapt(const Analysis& analysis, const Scene& scene, const vector<Material
 		int                  halvings   = adaptation.halvings;
 		Real                 unknowns   = 0;
 		const bool           byEdges    = adaptation.where == "contact";
-		vector<Vector3r>     varying;
-		if (!byEdges) varying = grid.dim == 2 ? varyingCells<2>(grid, points) : varyingCells<3>(grid, points);
+		const auto           varying    = byEdges ? Varying() : varyingCells(grid, points, halvings);
+		if (!byEdges && grid.adaptation.size() == 1 && varying.isServed) return "";
 		for (; halvings > 0; --halvings) {
 			Boxes tried = boxes;
 			if (byEdges) addEdges(tried, analysis, scene, halvings);
 			else
-				addVarying(tried, varying, grid, halvings);
+				addVarying(tried, varying.bySize, grid, halvings);
 			grid.adapted = std::move(tried);
 			if (!std::isfinite(adaptation.maxUnknowns)) break;
 			unknowns = unknownsOf(grid, points);

@@ -18,7 +18,10 @@ namespace {
 
 	template <int Dim> class Outgrown {
 	public:
-		Outgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most) : points(points), job(job), scene(scene), most(most) { }
+		Outgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most, bool followsCells)
+		        : points(points), job(job), scene(scene), most(most), followsCells(followsCells)
+		{
+		}
 
 		Splits splitAll()
 		{
@@ -44,9 +47,14 @@ namespace {
 		bool splitOnce(size_t p)
 		{
 			const MaterialPoint& point = points[p];
-			const Real           limit = margin * limitOf(point);
-			const Vector3r       size  = grown(point);
-			if (size.template head<Dim>().maxCoeff() <= limit) return false;
+			const Real           limit = limitOf(point);
+			if (isTooFew(point, limit)) {
+				const int axis = longestEdge(point);
+				if (axis >= 0) return split(p, axis);
+			}
+			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit * (1 - gimpm::overlapTolerance)) return false;
+			const Vector3r size = grown(point);
+			if (size.template head<Dim>().maxCoeff() <= margin * limit) return false;
 			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
@@ -65,6 +73,26 @@ namespace {
 				const Real along = std::abs(point.state->defGrad(longest, a)) * point.shape->halfSize0[a];
 				if (along > most && isFree(point, a)) best = a, most = along;
 			}
+			return best;
+		}
+
+		// True if its cell has been halved so often that less than two points along each axis are left.
+		// `limit`: half of the smallest cell that the domain touches.
+		bool isTooFew(const MaterialPoint& point, Real limit) const
+		{
+			if (!followsCells) return false;
+			const Real volume = point.shape->halfSize0.template head<Dim>().prod();
+			const auto most   = [](Real half) { return gimpm::Vec<Dim>::Constant(margin * half / 2).prod(); };
+			return volume > most(limit) && volume > most(gimpm::largestHalf<Dim>(job.model.grid, point.state->pos.template head<Dim>()));
+		}
+
+		// The longest edge across which the point can be split; none: -1.
+		int longestEdge(const MaterialPoint& point) const
+		{
+			int  best = -1;
+			Real most = 0;
+			for (int a = 0; a < Dim; ++a)
+				if (const Real length = 2 * toUpperHalf(point, a).norm(); length > most && isFree(point, a)) best = a, most = length;
 			return best;
 		}
 
@@ -231,15 +259,25 @@ namespace {
 		Job<Dim>&              job;
 		Scene&                 scene;
 		int                    most;
+		bool                   followsCells;
 		Splits                 result;
 
 		vector<std::pair<shared_ptr<Body>, HalvedDomain>> halves; // the upper ones, which have no ids yet
 	};
 }
 
+namespace {
+	// True if cells that are halved are to have as many points as before. Beside edges of bodies larger domains
+	// give a resistance that is nearer to the exact one.
+	bool arePointsOfCells(const MpmGrid& grid)
+	{
+		return std::any_of(grid.adaptation.begin(), grid.adaptation.end(), [](const auto& rule) { return rule->where == "error"; });
+	}
+}
+
 template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<MaterialPoint>& points, Job<Dim>& job)
 {
-	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
+	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits, arePointsOfCells(*engine.grid)).splitAll();
 	engine.clampedDomains = splits.left;
 	Pieces::note(*engine.scene, *job.model.division->processes);
 	if (splits.exhausted < 0 || isSaid) return "";

@@ -159,15 +159,21 @@ namespace {
 template <int Dim> bool Plausibility::isNew(const gimpm::PointCloud<Dim>& cloud) const { return known != fingerprint(cloud); }
 template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) { known = fingerprint(cloud); }
 
-template <int Dim> bool Plausibility::knows(const vector<MaterialPoint>& points) const
-{
-	gimpm::PointCloud<Dim> cloud; // only this is checked
-	for (const MaterialPoint& point : points) {
-		cloud.position.push_back(point.state->pos.template head<Dim>());
-		cloud.halfSize.push_back(point.shape->halfSize.template head<Dim>());
+namespace {
+	// As much of it as is looked at.
+	template <int Dim> gimpm::PointCloud<Dim> cloudOf(const vector<MaterialPoint>& points)
+	{
+		gimpm::PointCloud<Dim> cloud;
+		for (const MaterialPoint& point : points) {
+			cloud.position.push_back(point.state->pos.template head<Dim>());
+			cloud.halfSize.push_back(point.shape->halfSize.template head<Dim>());
+		}
+		return cloud;
 	}
-	return !isNew(cloud);
 }
+
+template <int Dim> bool Plausibility::knows(const vector<MaterialPoint>& points) const { return !isNew(cloudOf<Dim>(points)); }
+template <int Dim> void Plausibility::know(const vector<MaterialPoint>& points) { know(cloudOf<Dim>(points)); }
 
 template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
 {
@@ -278,7 +284,8 @@ vector<string> Plausibility::look(
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
 	if (points.empty()) return {}; // other processes have them
-	const bool areFirst = largest == 0, areNew = areFirst || isNew(cloud);
+	// Smaller cells have cut domains in the cloud.
+	const bool areFirst = largest == 0, areNew = areFirst || (model.grid.refinement ? !knows<Dim>(points) : isNew(cloud));
 	if (areNew) {
 		const gimpm::Stopwatch watch(time);
 		requirePoints(points, cloud);
@@ -327,6 +334,7 @@ vector<string> Plausibility::warningsOfResult(const Analysis& engine, const vect
 	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
 	template string         Plausibility::warningOfPlaced<Dim>(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);                                     \
 	template bool           Plausibility::knows<Dim>(const vector<MaterialPoint>&) const;                                                                  \
+	template void           Plausibility::know<Dim>(const vector<MaterialPoint>&);                                                                         \
 	template vector<string> Plausibility::warningsOfResult(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);                  \
 	template vector<string> Plausibility::look(                                                                                                            \
 	        const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double&);

@@ -35,6 +35,7 @@ public:
 	// The points are as the engine has left them.
 	template <int Dim> void know(const gimpm::PointCloud<Dim>&);
 	template <int Dim> bool knows(const vector<MaterialPoint>&) const;
+	template <int Dim> void know(const vector<MaterialPoint>&);
 
 	// Once: that the load curves are at their end, and which conditions reach no point. A wall may wait for soil
 	// that arrives later; that a boundary moves nothing is an error of the step.

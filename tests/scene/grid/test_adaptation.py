@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cells that are halved by themselves around edges of rigid bodies (MpmGrid.adaptation)."""
+"""Cells that are halved by themselves (MpmGrid.adaptation), and points that go with them."""
 import numpy as np
 import pytest
 from conftest import outcomesOf
@@ -118,7 +118,7 @@ def slope(yieldStress=1.2e4, engine=MpmImplicitEngine, profile=[(0, 0), (16, 0),
 def test_cells_are_halved_where_soil_slides_and_nowhere_of_level_ground(yade):
 	results = yade(slope + '''
 found = []
-for setting in dict(profile=[(0, 0), (16, 0), (16, 6), (0, 6)]), dict():
+for setting in dict(profile=[(0, 0), (16, 0), (16, 6), (0, 6)], yieldStress=1e6), dict():
 	grid = slope(**setting)
 	O.run(20, wait=True)
 	found.append([len(grid.adapted), [(np.array(box.min) + box.max).tolist() for box in grid.adapted], len(solver.report()['cells'])])
@@ -159,3 +159,129 @@ print(json.dumps([sorted(sizes), data['energyImbalance'], data['kineticEnergy'],
 	sizes, imbalance, kinetic, work = result
 	assert sizes == [1, 2] and kinetic > 0
 	assert abs(imbalance) < 0.01 * abs(work)
+
+
+halves = '''
+import json
+import numpy as np
+from yade import mpm, pack
+
+whole = dict(min=(-inf, -inf, -inf), max=(inf, inf, inf))
+
+def block(engine=MpmImplicitEngine, dim=2, axisymmetric=False, merge=True, gravity=0, size=(4, 4), boundaries=None, material=None, **options):
+	"""Points that are split at once, as cells are halved everywhere, and may become one in the next step, where they are not."""
+	O.reset()
+	grid = MpmGrid(cellSize=1, dim=dim, axisymmetric=axisymmetric, refinements=[MpmRefinement(halvings=1, **whole)])
+	O.materials.append(material or MpmElasticMat(young=1e6, poisson=0.3, density=2000, label='soil'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (*size, size[0])), MpmGrid(cellSize=1, dim=dim, axisymmetric=axisymmetric), 2, 'soil'))
+	grid.adaptation = [MpmAdaptation(halvings=1, where='error', merge=merge)]
+	sides = [MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(0, inf, inf), fix='x')] + [MpmBoundary(max=(inf, inf, 0), fix='z')] * (dim == 3)
+	O.engines = [engine(grid=grid, gravity=(0, gravity, 0), boundaries=sides if boundaries is None else boundaries, label='solver', verbosity=0, **options)]
+	O.dt = 1
+	return grid
+
+def sums():
+	a = mpm.arrays()
+	bodies = [b for b in O.bodies if isinstance(b.shape, MpmPoint)]
+	mass = np.array([b.state.mass for b in bodies])
+	return dict(points=len(bodies), volume=a['volume'].sum(), mass=mass.sum(), moment=(mass[:, None] * a['pos']).sum(axis=0).tolist(),
+	        momentum=(mass[:, None] * np.array([b.state.vel for b in bodies])).sum(axis=0).tolist(), stress=[a['stress'].min(axis=0).tolist(), a['stress'].max(axis=0).tolist()],
+	        size=mpm.arrays()['halfSize'][:, :2].max())
+'''
+
+
+@pytest.mark.parametrize('options', ['', 'dim=3, size=(2, 2)', 'axisymmetric=True'])
+def test_halves_become_one_again_without_a_trace(yade, options):
+	"""A block under uniform stress: points are split where cells are halved, and one again where they are not."""
+	results = yade(halves + f'''
+found = []
+grid = block({options})
+count = len(O.bodies)
+mpm.assign(stress=np.tile(-1e4 * np.eye(3), (count, 1, 1)))
+solver.boundaries = [MpmBoundary(fix='xyz'[:grid.dim])]
+for refinements in grid.refinements, [], []:
+	grid.refinements = refinements
+	O.step()
+	found.append(sums())
+print(json.dumps([count, solver.mergedEnergy, found]))
+''').result
+	count, energy, (split, one, still) = results
+	parts = 8 if 'dim=3' in options else 4
+	assert (split['points'], one['points'], still['points']) == (parts * count, count, count)
+	assert one['size'] == pytest.approx(2 * split['size'], rel=1e-12)
+	assert abs(energy) < 1e-6
+	for name in 'volume', 'mass', 'moment', 'stress':
+		assert np.allclose(split[name], one[name], rtol=1e-12, atol=1e-9 * np.abs(np.max(split[name]))), name
+
+
+def test_a_column_at_rest_stays_at_rest_and_loses_little(yade):
+	"""Under its weight the halves differ: those that become one lose no more than 1e-4 of the stored energy, and the base bears the same."""
+	results = yade(halves + '''
+found = []
+grid = block(gravity=-10, size=(4, 8))
+for refinements in grid.refinements, [], []:
+	grid.refinements = refinements
+	before = solver.mergedEnergy
+	O.step()
+	found.append([len(mpm.arrays()['pos']), solver.reactions[0][1], solver.plotData()['settlement'], (solver.mergedEnergy - before) / solver.plotData()['elasticEnergy']])
+print(json.dumps(found))
+''').result
+	(many, weight, settlement, _), (few, after, settled, lost), (_, later, at, _) = results
+	assert many > few and 0 < lost < 1e-4
+	assert after == pytest.approx(weight, rel=1e-6) and later == pytest.approx(weight, rel=1e-6)
+	assert at == pytest.approx(settlement, rel=2e-3)
+
+
+def test_halves_stay_if_that_is_wanted_or_they_are_not_alike(yade):
+	results = yade(halves + '''
+found = []
+for merge, strain in (False, 0), (True, 0.2), (True, 0):
+	grid = block(merge=merge, material=MpmVonMisesMat(young=1e6, poisson=0.3, density=2000, yieldStress=1e4, label='soil'))
+	O.step()
+	x = mpm.arrays()['pos']
+	mpm.assign(plasticStrain=strain * (1 + (x[:, 1] > 2) * np.arange(len(x))))
+	grid.refinements = []
+	O.step()
+	found.append(len(mpm.arrays()['pos']))
+print(json.dumps(found))
+''').result
+	assert results[0] == 4 * results[2] and results[2] < results[1]
+
+
+def test_momentum_is_kept_in_time(yade):
+	"""A block that flies and turns: its momentum is kept to round-off, and what halves lose of their energy is told."""
+	results = yade(halves + '''
+grid = block(MpmDynamicEngine, boundaries=[])
+x = mpm.arrays()['pos']
+mpm.assign(velocity=np.column_stack([3 - .5 * x[:, 1], 1 + .5 * x[:, 0], 0 * x[:, 0]]))
+O.dt = 0.01
+found = []
+for refinements in grid.refinements, []:
+	grid.refinements = refinements
+	if not refinements: grid.adaptation = [MpmAdaptation(where='contact')]
+	O.step()
+	data = solver.plotData()
+	found.append([len(mpm.arrays()['pos']), data['momentum_x'], data['momentum_y'], data['angularMomentum_z'], data['kineticEnergy'], solver.mergedEnergy, data['energyImbalance']])
+print(json.dumps(found))
+''').result
+	(many, *split), (few, *one) = results
+	assert few < many
+	assert one[0] == pytest.approx(split[0], rel=1e-12) and one[1] == pytest.approx(split[1], rel=1e-12)
+	assert one[2] == pytest.approx(split[2], rel=0.05)
+	assert 0 < one[4] < 0.05 * split[3] and abs(one[5]) < 0.01 * split[3]
+
+
+def test_a_surface_stays_where_it_is_when_cells_are_halved(yade):
+	"""Cells that the surface of a region cuts have the points of halved cells; within, there are no more than without."""
+	results = yade(slope + '''
+import collections
+profile = mpm.polygon([(0, 0), (16, 0), (16, 2), (9, 2), (5, 6), (0, 6)])
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, label='soil'))
+def half(bodies): return collections.Counter(round(4 / b.shape.halfSize[0]) for b in bodies)
+def volume(bodies): return sum(b.state.volume for b in bodies)
+adapted, fine, coarse = [mpm.fill(profile, grid, 2, 'soil') for grid in (MpmGrid(cellSize=1, adaptation=[MpmAdaptation(halvings=2, where='error')]), MpmGrid(cellSize=.25), MpmGrid(cellSize=1))]
+print(json.dumps([volume(adapted), volume(fine), len(adapted), len(fine), len(coarse), half(adapted)]))
+''').result
+	volume, exact, points, most, fewest, sizes = results
+	assert volume == pytest.approx(exact, rel=1e-12)
+	assert fewest < points < most / 2 and sorted(map(int, sizes)) == [16, 32, 64]

@@ -137,6 +137,7 @@ outOfRange = {
         'MpmAdaptation.halvings': ['0', '6'],
         'MpmAdaptation.where': ['"edges"'],
         'MpmAdaptation.maxUnknowns': ['0.', '-1.', 'nan'],
+        'MpmAdaptation.merge': None,
         'MpmGhost.factor': ['-1e-2'],
         'MpmGhost.scaling': ['"Paper"'],
         'MpmGhost.where': ['"edges"'],

@@ -138,7 +138,8 @@ def _latticePoints(predicate, grid, n):
 	for slab in slabs:
 		points = _cellPoints(cells[:-1] + [slab], grid, n)
 		for size, own in _ofLeaves(points, grid, n):
-			kept.setdefault(size, []).append(own[inside(predicate, own)])
+			for part, within in _alongSurface(predicate, own, size, grid, n):
+				kept.setdefault(part, []).append(within)
 		_requireRoom(sum(len(own) for parts in kept.values() for own in parts), room, grid, n)
 	bySize = {size: np.concatenate(kept[size]) for size in sorted(kept, reverse=True)}
 	positions, sizes = np.concatenate(list(bySize.values())), np.repeat(list(bySize), [len(own) for own in bySize.values()])
@@ -179,6 +180,19 @@ def _ofLeaves(points, grid, n):
 		whole = np.frombuffer(engine.cellSizes(grid, np.ascontiguousarray(centres))) > 0.75 * size
 		yield size, cells[whole].reshape(-1, 3)
 		points, size = _halved(centres[~whole], size, grid, n), size / 2
+
+
+def _alongSurface(predicate, points, size, grid, n):
+	"""Points of cells of one size that are inside the predicate, as pairs of the size of a cell and the points. Where cells are going to be halved by the error, those that the surface cuts have the points of smaller cells, so that it stays where it is."""
+	count = n**grid.dim
+	for _ in range(max((rule.halvings for rule in grid.adaptation if rule.where == 'error'), default=0)):
+		cells = points.reshape(-1, count, 3)
+		halves = _halved(cells.mean(axis=1), size, grid, n).reshape(len(cells), count * 2**grid.dim, 3)
+		within = inside(predicate, halves.reshape(-1, 3)).reshape(halves.shape[:2])
+		whole = within.all(axis=1)
+		yield size, cells[whole].reshape(-1, 3)
+		points, size = halves[within.any(axis=1) & ~whole].reshape(-1, 3), size / 2
+	yield size, points[inside(predicate, points)]
 
 
 def _halved(centres, size, grid, n):
