@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # cpack makes a package for the release of Debian that it runs on, and a second one of what needs PETSc, if that was built. It needs the packages dpkg-dev and file.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME plugin)
+if(NOT MPM_PORTABLE)
+	install(CODE "message(FATAL_ERROR \"MPM_PORTABLE = OFF builds for this computer's processor, and a package goes to others. Run cmake -DMPM_PORTABLE=ON and cmake --build in the build folder.\")")
+endif()
 string(REGEX REPLACE "/lib/.*" "" yade_prefix ${YADE_DIR})
 file(RELATIVE_PATH yade_folder ${yade_prefix} ${YADE_DIR})
 install(TARGETS pkg_mpm LIBRARY DESTINATION ${yade_folder})

@@ -30,6 +30,15 @@ namespace {
 		                                   : "this YADE " + version + " (the plugin was built for " YADE_API_VERSION ")";
 	}
 
+	void requireProcessor()
+	{
+#ifdef GIMPM_NEEDS_AVX2
+		if (!__builtin_cpu_supports("x86-64-v3"))
+			throw std::runtime_error(
+			        "this processor has no AVX2, which this build needs; build it on this computer, or with cmake -DMPM_PORTABLE=ON");
+#endif
+	}
+
 	void requireVirtualFunctions()
 	{
 		const auto others = findOtherVirtualFunctions();
@@ -74,6 +83,7 @@ namespace {
 	string open()
 	{
 		try {
+			requireProcessor();
 			requireVirtualFunctions();
 			requireLayout();
 			openPlugin();

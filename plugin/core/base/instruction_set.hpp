@@ -20,7 +20,13 @@ namespace gimpm {
 /// False where several processes shall come to the same bits, and the processor of one of them has none.
 inline bool mayUseAvx2 = true;
 
-inline bool processorHasAvx2() { return mayUseAvx2 && __builtin_cpu_supports("x86-64-v3"); }
+#ifdef GIMPM_NEEDS_AVX2 // a build for the processor at hand (MPM_PORTABLE in plugin/CMakeLists.txt)
+constexpr bool isPortable = false;
+#else
+constexpr bool                  isPortable     = true;
+#endif
+
+inline bool processorHasAvx2() { return !isPortable || (mayUseAvx2 && __builtin_cpu_supports("x86-64-v3")); }
 
 #ifdef GIMPM_BRIEF
 template <class> constexpr bool mayHaveKernels = false;
@@ -37,9 +43,9 @@ template <class F>[[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx
 }
 template <class F> void callForProcessor(F&& f)
 {
-	if (processorHasAvx2()) callAvx2(f);
-	else
-		callPortable(f);
+	if constexpr (isPortable)
+		if (!processorHasAvx2()) return callPortable(f);
+	callAvx2(f);
 }
 
 } // namespace gimpm

@@ -44,11 +44,19 @@ inline void keepSmallest(std::atomic<FailureCode>& smallest, FailureCode value)
 	while (value < seen && !smallest.compare_exchange_weak(seen, value)) { }
 }
 
+/// The kernel for this processor.
+template <class ChunkOfPoints, int Dim> auto kernelForProcessor()
+{
+	if constexpr (isPortable)
+		if (!processorHasAvx2()) return PortableKernels::addPatches<ChunkOfPoints, Dim>;
+	return Avx2Kernels::addPatches<ChunkOfPoints, Dim>;
+}
+
 /// Fails where a point does. The result does not depend on the number of threads.
 template <class ChunkOfPoints, int Dim> std::optional<PointFailure> addPoints(const Pass<Dim>& pass)
 {
 	std::atomic<FailureCode> failure { noFailure };
-	const auto               add = processorHasAvx2() ? Avx2Kernels::addPatches<ChunkOfPoints, Dim> : PortableKernels::addPatches<ChunkOfPoints, Dim>;
+	const auto               add = kernelForProcessor<ChunkOfPoints, Dim>();
 	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but
 	// where another program takes a processor away they wait for its time slice, a thousand times as long as the
 	// pass.

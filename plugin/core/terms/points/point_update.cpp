@@ -15,9 +15,12 @@ void visitPoints(
 #pragma omp parallel for schedule(dynamic)
 	for (int first = 0; first < patches; first += patchesAtOnce) {
 		const int last = std::min(first + patchesAtOnce, patches);
-		if (processorHasAvx2()) callAvx2([&] { visitPatches<ChunkOfPoints>(basis, points, materials, d, first, last, visitor); });
-		else
-			visitPortably<ChunkOfPoints>(basis, points, materials, d, first, last, visitor);
+		if constexpr (isPortable)
+			if (!processorHasAvx2()) {
+				visitPortably<ChunkOfPoints>(basis, points, materials, d, first, last, visitor);
+				continue;
+			}
+		callAvx2([&] { visitPatches<ChunkOfPoints>(basis, points, materials, d, first, last, visitor); });
 	}
 }
 
