@@ -5,8 +5,7 @@ Makes a picture with ParaView of what MpmVtkRecorder has written with fileName=<
 points, coloured by one of their fields, and, if there are files of them, the background grid with its boundary cells and the ghost
 faces; with --spheres DEM grains in front of them. With --state the same can be opened in ParaView, to go on from there.
 
-pvbatch is in Debian's package paraview, and its Python modules in python3-paraview; without a screen: xvfb-run -a pvbatch ... Debian 12 does
-not have python3-paraview beside libvtk9-dev: installing it removes that. The plugin stays, and scripts/setup does without.
+pvbatch is in Debian's package paraview, and its Python modules in python3-paraview; without a screen: xvfb-run -a pvbatch ...
 """
 import argparse
 import glob
