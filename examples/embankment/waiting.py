@@ -67,7 +67,8 @@ def step(days):
 
 def safety():
 	"""Bracket of the factor in total stress; the scene is as before after it. At constant volume p ends at the critical state, where q = M p."""
-	O.save('stage.yade.gz')
+	kept = os.path.join(options.out, 'stage.yade.gz')
+	O.save(kept)
 	points = mpm.arrays()
 	clay = points['material'] == 1
 	p0 = -np.trace(points['stress'][clay], axis1=1, axis2=2) / 3
@@ -83,7 +84,7 @@ def safety():
 	strength = np.maximum(strength, 0.505 * (principal[:, 2] - principal[:, 0]))  # Cam clay carries some more off the axes of a triaxial test
 	mpm.assign(ids=points['id'][clay], undrainedStrength=strength, stress=total[clay])
 	found = mpm.strengthReduction(tolerance=.02)
-	O.load('stage.yade.gz')
+	O.load(kept)
 	return found['lower']
 
 
