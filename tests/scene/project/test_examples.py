@@ -521,6 +521,14 @@ def test_dam(yade):
 	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
 
 
+def test_the_shortest_seepage(yade):
+	"""The script on the page of water: what enters upstream comes out at the toe, and the water takes a part of the safety."""
+	script = re.search(r'```python\n(.*?)```', (root / 'examples/water/README.md').read_text(), re.DOTALL)[1]
+	enters, leaves, wet = numbers(r'\[-(\S+), (\S+)\] (\S+)', yade(script).stdout)
+	dry = float(yade(script.replace('flow.pressure)', 'lambda x: 0)')).stdout.split()[-1])
+	assert abs(enters / leaves - 1) < 1e-3 and leaves > 1e-6 and 1 < wet < 0.8 * dry
+
+
 def test_sheet_pile(yade):
 	"""Before it fails, by the figures of its page."""
 	run = yade(root / 'examples' / 'sheet_pile' / 'sheet_pile.py', '--depth', 2.5, '--seen', 2.5)
