@@ -103,7 +103,7 @@ print(f'force of the debris on the wall: at most {smooth.max() / 1000:.1f} kN at
 print(f'energy not accounted for: {work["energyImbalance"] / work["loadWork"]:+.1e} of the work of gravity; {time.time() - began:.0f} s')
 
 figure, (section, force) = plt.subplots(2, 1, figsize=(9, 6.4), height_ratios=[1.25, 1], layout='constrained')
-mpm.plot('velocity_x', ax=section, plane=('y', 0.11 * h))
+mpm.plot('displacement', ax=section, plane=('y', 0.11 * h))
 force.plot(t, smooth / 1000, label='debris, mean over nine records')
 if clumps: force.plot(t, boulders / 1000, label='boulders', linewidth=0.9)
 force.set(xlabel='time [s]', ylabel='force on the wall [kN]', xlim=(0, t[-1]))
