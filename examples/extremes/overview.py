@@ -50,8 +50,8 @@ def beyond(rows, name):
 
 
 def limits(rows):
-	lines = [(axes[name].title.removesuffix(' [-]'), *(rangeOf(rows, name, ghost) for ghost in (default, 'none', 'paper')), beyond(rows, name)) for name in listed() if rangeOf(rows, name, default) != 'all']
-	return pages.table(['parameter', 'safe', 'without ghost', 'ghost, h³', 'beyond, with the default'], lines)
+	lines = [(axes[name].title.removesuffix(' [-]'), rangeOf(rows, name, default), beyond(rows, name)) for name in listed() if rangeOf(rows, name, default) != 'all']
+	return pages.table(['parameter', 'safe', 'beyond'], lines)
 
 
 def picture(rows, path):
@@ -131,7 +131,7 @@ def text(rows):
 '''
 
 
-TABLE = """**Where the default ends** (the ranges hold in 2D and in 3D; parameters that are not in this table are safe throughout):
+TABLE = """**Where the default ends** (in 2D and 3D; parameters that are not in this table are safe throughout; [without ghost stabilisation and in the scaling of the paper](../../plugin/docs/studies/extremes.md#safe-ranges)):
 """
 
 
