@@ -3,10 +3,12 @@
 
 With the tag pdf they are those of the manual in one file: pages that plugin/docs/manual.md lists, by LaTeX.
 """
+import csv
 import pathlib
 import shutil
 
 from docutils import nodes
+from sphinx import addnodes
 from sphinx.search import en
 
 project = 'Implicit material point method for YADE'
@@ -62,6 +64,19 @@ def tagEquations(app, doctree, page):
 		node.children = [nodes.Text(r'\begin{equation*}' + node.astext() + r'\end{equation*}')]
 
 
+with open(pathlib.Path(__file__).parent / 'keywords.csv', newline='') as file:
+	keywords = list(csv.DictReader(file))
+
+
+def addKeywords(app, doctree, page):
+	"""Words for which users search, and which the page that answers does not have: an entry that leads to the section, and the single words."""
+	rows = [row for row in keywords if row['page'] == page]
+	if not rows: return
+	doctree += addnodes.index(entries=[('single', row['words'], row['section'], '', None) for row in rows])
+	doctree += nodes.meta(name='keywords', content=','.join(word for row in rows for word in row['words'].split()))
+
+
 def setup(app):
 	app.connect('doctree-resolved', tagEquations)
+	app.connect('doctree-resolved', addKeywords)
 	app.connect('build-finished', copyViews)

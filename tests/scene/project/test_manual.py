@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The manual as HTML and as PDF: made without a warning, links, pictures and search work; pages do not grow and do not repeat each other."""
+import csv
 import html.parser
 import itertools
 import json
@@ -82,6 +83,21 @@ def test_the_search_finds_the_page_of_questions(made, yade):
 	for page in 'README', 'plugin/docs/classes/MpmContact', 'build/docs/messages':
 		text = (htmlPages / f'{page}.html').read_text()
 		assert 0 < text.index('id="searchbox"') < text.index('Navigation'), page
+
+
+def test_words_of_users_lead_to_sections_that_answer(made, yade):
+	"""Each row of keywords.csv is an entry of the search, and its section is on the page; its words are found with others of that page."""
+	make(made, yade)
+	index = json.loads((htmlPages / 'searchindex.js').read_text().removeprefix('Search.setIndex(').removesuffix(')'))
+	with open(root / 'plugin/docs/keywords.csv', newline='') as file:
+		rows = list(csv.DictReader(file))
+	assert len(rows) > 50 and len({row['words'] for row in rows}) == len(rows)
+	for row in rows:
+		number = index['docnames'].index(row['page'])
+		assert [number, row['section']] in [[entry[0], entry[1]] for entry in index['indexentries'][row['words']]], row
+		assert not row['section'] or row['section'] in Page(htmlPages / f"{row['page']}.html").anchors, row
+	licence = index['terms']['licens']
+	assert index['docnames'].index('README') in (licence if isinstance(licence, list) else [licence])
 
 
 def test_the_manual_in_one_file(made, yade):
