@@ -33,7 +33,7 @@ html_copy_source = False
 html_show_copyright = False
 html_search_scorer = str(pathlib.Path(__file__).parent / 'search.js')
 # words of questions, which no page need have
-en.SearchEnglish.stopwords = en.SearchEnglish.stopwords | set('can do does from get have how its must should what when where which who why you your'.split())
+en.SearchEnglish.stopwords = en.SearchEnglish.stopwords | set('can did do does from get have how its make must my should want what when where which who why you your'.split())
 
 
 def copyViews(app, failure):

@@ -18,3 +18,31 @@ var Scorer = {
 	term: 5,
 	partialTerm: 2,
 };
+
+// Pages without one of the words, where no page has all; and titles and entries whose words are all among those of the question, wherever they stand in it.
+(() => {
+	const stemmer = new Stemmer();
+	const isLeftOut = word => (stopwords.has ? stopwords.has(word) : stopwords.includes(word));
+	const stems = text => splitQuery(text.toLowerCase()).filter(word => !isLeftOut(word)).map(word => stemmer.stemWord(word));
+	const searchAll = Search.performTermsSearch;
+
+	const searchWithoutOne = (asked, excluded) =>
+		[...asked].flatMap(left => searchAll(new Set([...asked].filter(word => word !== left)), excluded));
+
+	const searchPhrases = (table, asked, fewestWords) => {
+		const {docnames, filenames, titles} = Search._index;
+		return Object.entries(table).flatMap(([phrase, places]) => {
+			const words = new Set(stems(phrase));
+			const isHeadingOfMany = places.length > 5; // as Limits
+			if (words.size < fewestWords || isHeadingOfMany || [...words].some(word => !asked.has(word))) return [];
+			const score = Math.round(30 + 50 * words.size / asked.size);
+			return places.map(([file, id]) => [docnames[file], titles[file], id ? '#' + id : '', null, score, filenames[file]]);
+		});
+	};
+
+	Search.performTermsSearch = (asked, excluded) => {
+		let found = searchAll(asked, excluded);
+		if (!found.length && asked.size > 1) found = searchWithoutOne(asked, excluded);
+		return found.concat(searchPhrases(Search._index.alltitles, asked, 2), searchPhrases(Search._index.indexentries, asked, 1));
+	};
+})();

@@ -100,6 +100,20 @@ def test_words_of_users_lead_to_sections_that_answer(made, yade):
 	assert index['docnames'].index('README') in (licence if isinstance(licence, list) else [licence])
 
 
+def test_whole_questions_find_their_section(made, yade):
+	"""Questions as users ask them, with words that are on no page. Node runs the search of the pages."""
+	if not shutil.which('node'): pytest.skip('Node is not installed: apt install nodejs')
+	make(made, yade)
+	questions = {
+	        'why did the engine reduce the step': 'plugin/docs/questions#why-was-a-step-reduced',
+	        'what does it cost to halve the error of a footing': 'plugin/docs/questions#what-does-half-the-error-of-a-footing-cost',
+	        'how do I make an animation of my run': 'plugin/docs/results#draw-a-picture',
+	        'geogrid slope': 'plugin/docs/classes/MpmReinforcement'
+	}
+	found = subprocess.run(['node', root / 'tests/scene/project/search.js', htmlPages, *questions], capture_output=True, text=True, check=True).stdout.split()
+	assert found == list(questions.values())
+
+
 def test_the_manual_in_one_file(made, yade):
 	"""Its numbered equations, classes and tutorials are in it."""
 	if not hasLatex: pytest.skip('LaTeX is not installed: scripts/docs --pdf installs it')
