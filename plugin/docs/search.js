@@ -29,20 +29,21 @@ var Scorer = {
 	const searchWithoutOne = (asked, excluded) =>
 		[...asked].flatMap(left => searchAll(new Set([...asked].filter(word => word !== left)), excluded));
 
-	const searchPhrases = (table, asked, fewestWords) => {
+	const searchPhrases = (table, asked, fewestWords, titleOf) => {
 		const {docnames, filenames, titles} = Search._index;
 		return Object.entries(table).flatMap(([phrase, places]) => {
 			const words = new Set(stems(phrase));
 			const isHeadingOfMany = places.length > 5; // as Limits
 			if (words.size < fewestWords || isHeadingOfMany || [...words].some(word => !asked.has(word))) return [];
 			const score = Math.round(30 + 50 * words.size / asked.size);
-			return places.map(([file, id]) => [docnames[file], titles[file], id ? '#' + id : '', null, score, filenames[file]]);
+			return places.map(([file, id]) => [docnames[file], titleOf(titles[file], phrase), id ? '#' + id : '', null, score, filenames[file]]);
 		});
 	};
 
 	Search.performTermsSearch = (asked, excluded) => {
 		let found = searchAll(asked, excluded);
 		if (!found.length && asked.size > 1) found = searchWithoutOne(asked, excluded);
-		return found.concat(searchPhrases(Search._index.alltitles, asked, 2), searchPhrases(Search._index.indexentries, asked, 1));
+		const ofHeading = (page, heading) => (page === heading ? page : `${page} > ${heading}`); // as Sphinx names it, so that it is shown once
+		return found.concat(searchPhrases(Search._index.alltitles, asked, 2, ofHeading), searchPhrases(Search._index.indexentries, asked, 1, page => page));
 	};
 })();
