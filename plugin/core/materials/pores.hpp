@@ -15,16 +15,20 @@ struct Pores {
 	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
 	Law    law          = Law::constant;
 	/// Change of the void ratio for ten times the conductivity, in the logarithmic law [-].
-	double           index     = std::numeric_limits<double>::quiet_NaN();
-	bool             areRigid  = false;   ///< water passes without pressing on the grains, and their strain displaces no water
-	const Retention* retention = nullptr; ///< null: the pores are always full
+	double           index         = std::numeric_limits<double>::quiet_NaN();
+	bool             areRigid      = false;   ///< water passes without pressing on the grains, and their strain displaces no water
+	const Retention* retention     = nullptr; ///< null: the pores are always full
+	double           verticalRatio = 1;       ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
 
-	/// Conductivity for the water in a volume that was 1 at first, which now is J.
+	/// Horizontal conductivity for the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {
 		double value;         ///< [m2/(Pa s)]
 		double logDerivative; ///< d ln value / d ln J
 	};
 	Conductivity at(double J) const;
+
+	/// In the direction where it is largest, over the horizontal one.
+	double largestRatio() const { return verticalRatio > 1 ? verticalRatio : 1; }
 
 	/// True if grains, which keep their volume, leave room for water.
 	bool areOpen(double J) const { return J > 1 - porosity; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/materials/conductivity.hpp"
 #include "engine/materials/retention/MpmRetention.hpp"
 
 namespace yade {
@@ -15,12 +16,12 @@ public:
 
 	bool   undrained         = false;
 	Real   waterModulus      = std::numeric_limits<Real>::quiet_NaN(); // without default
-	Real   conductivity      = std::numeric_limits<Real>::quiet_NaN();
 	Real   porosity          = std::numeric_limits<Real>::quiet_NaN();
 	string conductivityLaw   = "constant";
 	Real   conductivityIndex = std::numeric_limits<Real>::quiet_NaN();
 	Real   relaxationTime    = std::numeric_limits<Real>::quiet_NaN();
 
+	Conductivity             conductivity;
 	shared_ptr<MpmRetention> retention; // none: always saturated
 
 	YADE_API_NAME(MpmMaterial)
@@ -41,10 +42,10 @@ public:
 			  return std::isnan(value) || (std::isfinite(value) && value > 0);
 		  }));
 		v("conductivity", &MpmMaterial::conductivity, 0,
-		  "Hydraulic conductivity [m/s] >= 0 at the initial porosity, for *MpmImplicitEngine.flow*; 0: impervious. Permeability [m²] times the weight of water [N/m³] over its viscosity [Pa s].",
-		  admitting("a finite number >= 0 [m/s], or NaN, the default: not given", [](Real value) {
-			  return std::isnan(value) || (std::isfinite(value) && value >= 0);
-		  }));
+		  "Hydraulic conductivity [m/s] >= 0 at the initial porosity, or a pair (horizontal, vertical) of layers, for *MpmImplicitEngine.flow*; 0: impervious.",
+		  admitting(
+		          "a finite number >= 0 [m/s], a pair of such (horizontal > 0, vertical), or NaN, the default: not given",
+		          [](const Conductivity& value) { return value.isAdmissible(); }));
 		v("porosity", &MpmMaterial::porosity, 0,
 		  "Part of the initial volume [-] that is pores, between 0 and 1, both excluded, for *MpmImplicitEngine.flow*; no default.",
 		  admitting("a number between 0 and 1, both excluded (percent over 100), or NaN, the default: not given", [](Real value) {

@@ -23,6 +23,7 @@ const vector<Parameter>& allParameters()
 		{ "tensileStrength", "Pa", "tensile strength" },
 		{ "criticalStateRatio", "-", "critical state ratio" },
 		{ "conductivity", "m/s", "hydraulic conductivity" },
+		{ "verticalConductivity", "m/s", "vertical hydraulic conductivity" },
 		{ "porosity", "-", "porosity" },
 	};
 	return all;
@@ -31,7 +32,8 @@ const vector<Parameter>& allParameters()
 const vector<ParameterOfClass>& parametersOfPores()
 {
 	static const vector<ParameterOfClass> all {
-		{ "conductivity", [](MpmMaterial& m) -> Real& { return m.conductivity; } },
+		{ "conductivity", [](MpmMaterial& m) -> Real& { return m.conductivity.horizontal; } },
+		{ "verticalConductivity", [](MpmMaterial& m) -> Real& { return m.conductivity.vertical; } },
 		{ "porosity", [](MpmMaterial& m) -> Real& { return m.porosity; } },
 	};
 	return all;

@@ -24,12 +24,14 @@ namespace {
 
 	const Retention sand { Retention::Curve::vanGenuchten, Retention::Permeability::mualem, 3.35 / weight, 2, 0.102 / 0.368, 1 };
 
-	template <int Dim> void expectTangent(DryingSoil<Dim>& body)
+	template <int Dim> void expectTangent(DryingSoil<Dim>& body, double verticalRatio = 1)
 	{
 		body.water.whole->factor = 0.7;
 		body.water.modulus       = 2e6;
 		body.water.duration      = 3;
 		body.water.pores[0].law  = Pores::Law::kozenyCarman;
+		body.water.vertical << 0.6, Vec<Dim - 1>::Unit(Dim - 2) * 0.8;
+		body.water.pores[0].verticalRatio = verticalRatio;
 		Random random(3);
 		for (auto& pressure : body.water.pressure)
 			pressure = random.in(-3e4, 1e4);
@@ -79,6 +81,7 @@ namespace {
 				expectTangent(plane);
 				expectTangent(space);
 				expectTangent(ring);
+				expectTangent(plane, 0.1);
 			}
 	}
 

@@ -40,6 +40,45 @@ def refusal(change):
 '''
 
 
+def test_flow_under_a_dam_on_layers(yade):
+	"""Flow under a dam of width b on a layer of the depth T: discharge k H K' / 2 K with the modulus tanh(pi b / 4 T) (Harr 1962); k is sqrt(k_h k_v) and T is T sqrt(k_h / k_v) where these differ."""
+	discharges, said, vertical = yade(
+	        setting + '''
+T, L, b, H, h = 4, 16, 4, 1e4, .25
+def under(pair, **own):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e12, poisson=0, density=2000, conductivity=pair, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(-L, 0), (L, 0), (L, T), (-L, T)]), grid, 2, 'soil', **own))
+	drains = [MpmDrain(surface=[(-b / 2, T), (-L, T)], pressure=H, conductance=100), MpmDrain(surface=[(L, T), (b / 2, T)], conductance=100)]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], flow=MpmFlow(drains=drains, unitWeight=1e4), verbosity=0, loadCurve=[(0, 1), (1, 1)])]
+	O.dt = 1e9
+	O.step()
+	O.step()
+	return drains[1].discharge
+discharges = [under(pair) for pair in (1e-7, (4e-7, 1e-7), (1e-7, 4e-7))]
+discharges.append(under(1e-7, conductivity=lambda x: 4e-7, verticalConductivity=lambda x: 1e-7) / discharges[1])
+try: under((4e-7, 1e-7), conductivity=lambda x: 4e-7)
+except Exception as error: said = str(error)
+O.materials[0].conductivity = 1e-7, 1e-8
+O.save('pair.yade.gz')
+O.load('pair.yade.gz')
+print(json.dumps([discharges, said, O.materials[0].conductivity]))
+'''
+	).result
+	from math import pi, sqrt, tanh
+
+	def mean(a, b):
+		while abs(a - b) > 1e-12 * a: a, b = (a + b) / 2, sqrt(a * b)
+		return a
+
+	for found, (kh, kv) in zip(discharges, ((1e-7, 1e-7), (4e-7, 1e-7), (1e-7, 4e-7))):
+		m = tanh(pi * 4 / (4 * 4 * sqrt(kh / kv)))
+		assert found == pytest.approx(sqrt(kh * kv) * mean(1, sqrt(1 - m * m)) / mean(1, m) / 2, rel=0.02)
+	assert discharges[3] == pytest.approx(1, rel=1e-12), 'points may have both of their own'
+	assert 'verticalConductivity' in said and vertical == [1e-7, 1e-8]
+
+
 def test_a_column_consolidates_and_its_water_is_counted(yade):
 	degrees, counted, fluxes, names, same = yade(
 	        setting + '''

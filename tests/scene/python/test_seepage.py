@@ -35,6 +35,39 @@ print(json.dumps(found))
 		assert exit > level + 0.2, 'water comes out above the lower level'
 
 
+def test_layers_conduct_along_and_across(yade):
+	"""Dupuit's discharge is that of the horizontal conductivity, whatever the vertical one. Under a sheet pile of half the depth of the layer passes sqrt(k_h k_v) H / 2: in coordinates x sqrt(k_v / k_h) such soil conducts alike."""
+	dams, piles, said = yade(
+	        setting + '''
+dams, piles = [], []
+for pair in (4e-5, 1e-5), (1e-5, 4e-5):
+	left, right = dam(5, 4, .25)
+	O.materials[0].conductivity = pair
+	flow = mpm.seepage([(left, 4), (right, 1)])
+	dams.append(flow.discharge[1] / (pair[0] * (4**2 - 1) / 10))
+	T, L = 5, 20
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e7, poisson=.3, density=2000, conductivity=pair, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(-L, 0), (L, 0), (L, T), (-L, T)]), grid, 2, 'soil'))
+	wall = MpmBeam(line=[(0, T), (0, T / 2)], axialStiffness=3e9, bendingStiffness=5e7)
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), loads=[wall], verbosity=0)]
+	ground = [([(0, T), (-L, T)], T + 1), ([(L, T), (0, T)], T)]
+	piles.append(mpm.seepage(ground, unitWeight=1e4).discharge[1] / (2e-5 / 2))
+x = mpm.arrays()['pos']
+mpm.assign(conductivity=[1e-5] * len(x))
+try: mpm.seepage(ground)
+except ValueError as error: said = str(error)
+mpm.assign(verticalConductivity=[1e-5] * len(x))
+piles.append(mpm.seepage(ground, unitWeight=1e4).discharge[1] / (1e-5 / 2))
+print(json.dumps([dams, piles, said]))
+'''
+	).result
+	assert dams == pytest.approx([1, 1], abs=0.02)
+	assert piles == pytest.approx([1, 1, 1], abs=0.05)
+	assert 'pair' in said and 'verticalConductivity' in said
+
+
 def test_a_drain_below_a_dam_draws_the_parabola_of_kozeny(yade):
 	"""Flow from a steep face to a horizontal drain: discharge k (sqrt(d^2 + h^2) - d), and the free surface y^2 = 2 a (d - x) + a^2. Kozeny's own face bulges a little towards the water."""
 	for found, surface in yade(

@@ -61,10 +61,16 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * pressure[p];
 					}
 			}
-		const Eigen::VectorXd fitted = water.whole ? fittedPressures(basis, cloud, grid, pressure) : Eigen::VectorXd();
+		Eigen::VectorXd fitted;
 		for (Eigen::Index n = 0; n < nodes; ++n) {
 			const auto known = water.atNodes.find(basis.nodes[n]);
-			sum[n]           = known != water.atNodes.end() ? known->second : water.whole ? fitted[n] : volume[n] > 0 ? sum[n] / volume[n] : 0;
+			if (known != water.atNodes.end()) sum[n] = known->second;
+			else if (!water.whole)
+				sum[n] = volume[n] > 0 ? sum[n] / volume[n] : 0;
+			else {
+				if (fitted.size() == 0) fitted = fittedPressures(basis, cloud, grid, pressure);
+				sum[n] = fitted[n];
+			}
 		}
 		return FieldStart { sum, {} };
 	};
@@ -116,8 +122,28 @@ static std::vector<double> relativePermeabilities(const std::vector<PorePoint>& 
 	return relative;
 }
 
-/// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct. A face has what
-/// the less permeable of its two cells has: the pressure may bend where soils meet.
+/// True if some soil conducts better in one direction than in another, in any process.
+template <int Dim> bool Flow<Dim>::hasDirections() const
+{
+	const bool here = std::any_of(points_.begin(), points_.end(), [](const PorePoint& point) { return point.pores->verticalRatio != 1; });
+	return division_.sum(here ? 1. : 0.) > 0;
+}
+
+/// Adds a cell of which all nodes are there, with its weight.
+template <int Dim> void Flow<Dim>::addCell(Key key, double weight, const StepContext<Dim>& step)
+{
+	Cell       cell { {}, weight };
+	const auto lowest = Grid<Dim>::index(key);
+	for (int s = 0; s < corners; ++s) {
+		Index<Dim> node = lowest;
+		for (int a = 0; a < Dim; ++a)
+			node[a] += s >> a & 1;
+		cell.node[s] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(node)));
+	}
+	if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
+}
+
+/// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct.
 template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
 {
 	const auto&             cells = step.basis.cells;
@@ -129,33 +155,39 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 		compliance[p] = 1 / modulusOf(int(p));
 	const auto          relative = water_.whole ? relativePermeabilities(points_, compliance) : std::vector<double>();
 	std::vector<double> permeability(water_.whole ? cells.size() : 0, 0.);
+	if (hasDirections()) cellRise_.assign(cells.size(), 0);
 	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
 		const double part = within(points_[p].volume);
 		volume[cell] += part, softness[cell] += part * compliance[p];
-		cellConductivity_[cell] += part * points_[p].pores->at(points_[p].ratio).value;
+		const Pores& pores        = *points_[p].pores;
+		const double conductivity = part * pores.at(points_[p].ratio).value;
+		cellConductivity_[cell] += conductivity;
+		if (!cellRise_.empty()) cellRise_[cell] += (pores.verticalRatio - 1) * conductivity;
 		if (water_.whole) permeability[cell] += part * relative[p];
 	});
 	for (auto* ofCells : { &volume, &softness, &cellConductivity_ })
 		step.division.complete(cells, *ofCells);
 	if (water_.whole) step.division.complete(cells, permeability);
+	if (!cellRise_.empty()) step.division.complete(cells, cellRise_);
 	for (std::size_t c = 0; c < cells.size(); ++c) {
-		Cell       cell { {}, water_.stabilisation * softness[c] };
-		const auto lowest = Grid<Dim>::index(cells[c]);
-		for (int s = 0; s < corners; ++s) {
-			Index<Dim> node = lowest;
-			for (int a = 0; a < Dim; ++a)
-				node[a] += s >> a & 1;
-			cell.node[s] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(node)));
-		}
-		if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
+		addCell(cells[c], water_.stabilisation * softness[c], step);
 		softness[c] /= volume[c], cellConductivity_[c] /= volume[c];
-		if (water_.whole) permeability[c] *= cellConductivity_[c] / volume[c];
+		if (water_.whole) permeability[c] /= volume[c];
+		if (!cellRise_.empty()) cellRise_[c] /= volume[c];
 	}
+	weighFaces(softness, permeability, step);
+}
+
+/// By the compliances of the cells and, where pores need not be full, their relative permeabilities. A face has what
+/// the less permeable of its two cells has: the pressure may bend where soils meet.
+template <int Dim> void Flow<Dim>::weighFaces(const std::vector<double>& softness, const std::vector<double>& permeability, const StepContext<Dim>& step)
+{
 	for (auto& face : faces_) {
 		const auto [lower, upper] = cellsAt(face, step.basis, step.grid);
-		const auto&  passes       = water_.whole ? permeability : cellConductivity_;
-		const double ofFlow       = water_.duration * std::min(passes[lower], passes[upper]);
-		face.stiffness            = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
+		const auto passes
+		        = [&, axis = face.axis](int cell) { return conductivityAlong(cell, Vec<Dim>::Unit(axis)) * (water_.whole ? permeability[cell] : 1); };
+		const double ofFlow = water_.duration * std::min(passes(lower), passes(upper));
+		face.stiffness      = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
 	}
 }
 
@@ -206,25 +238,29 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 {
 	constexpr int         none = std::numeric_limits<int>::max();
 	std::atomic<int>      failed { none };
-	const Eigen::VectorXd P      = state.value(field);
-	const auto&           d      = state.displacements();
-	const auto*           blocks = sum.couplings ? &blocksIn(*sum.couplings) : nullptr;
+	const Eigen::VectorXd P       = state.value(field);
+	const auto&           d       = state.displacements();
+	const auto*           blocks  = sum.couplings ? &blocksIn(*sum.couplings) : nullptr;
+	const auto            wetness = water_.whole ? curves_->at(P) : CurvesOfNodes::Wetness();
 	forRanges(basis_, [&](int first, int last) {
 		FlowSums<Dim> sums(sum, blocks, basis_.isAxisymmetric(), water_);
 		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
 			sums.begin(cell.node);
 			for (const auto* patch = cell.first; patch < cell.end; ++patch)
 				for (int i = patch->first; i < patch->first + patch->count; ++i) {
-					const int                   p = basis_.order[i];
-					const PointFunctions<Dim>   f(basis_, i, *patch);
-					const FlowPoint<Dim>        s(points_[p], *patch, f, d, P, water_.modulus);
-					const PresentFunctions<Dim> now(s, f);
+					const int                 p = basis_.order[i];
+					const PointFunctions<Dim> f(basis_, i, *patch);
+					const FlowPoint<Dim>      s(points_[p], *patch, f, d, P, water_.modulus);
+					const auto                functions = [&](const Vec<Dim>& drive) {
+                                                return PresentFunctions<Dim>(s, f, conducted(*points_[p].pores, water_.vertical, drive));
+					};
 					if (!s.isPossible(points_[p]))
 						for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
-					else if (water_.whole)
-						sums.addUnsaturated(points_[p], s, unsaturated(p, *patch, f, s, P), *patch, f, now);
-					else
-						sums.add(points_[p], s, *patch, f, now);
+					else if (water_.whole) {
+						const auto u = unsaturated(p, *patch, f, s, wetness);
+						sums.addUnsaturated(points_[p], s, u, *patch, f, functions(u.drive));
+					} else
+						sums.add(points_[p], s, *patch, f, functions(s.pressureGradient));
 				}
 			sums.scatterAdd();
 		});
@@ -263,9 +299,9 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 		for (auto patch = basis_.patches.begin() + first; patch != basis_.patches.begin() + last; ++patch)
 			for (int i = patch->first; i < patch->first + patch->count; ++i) {
 				const PointFunctions<Dim> f(basis_, i, *patch);
-				const PorePoint&          point    = points_[basis_.order[i]];
-				const double              flow     = water_.duration * point.volume * point.pores->at(point.ratio).value;
-				double                    gradient = 0, steepness[windowNodes<Dim>];
+				const PorePoint&          point = points_[basis_.order[i]];
+				const double flow     = water_.duration * point.volume * point.pores->largestRatio() * point.pores->at(point.ratio).value;
+				double       gradient = 0, steepness[windowNodes<Dim>];
 				for (int n = 0; n < f.count; ++n) {
 					steepness[n] = f.gradient[n].norm();
 					if (patch->node[n] >= 0) gradient += steepness[n] * std::abs(P[patch->node[n]]);
@@ -295,7 +331,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			if (p >= own) continue;
 			const FlowPoint<Dim> s(points_[p], patch, PointFunctions<Dim>(basis_, i, patch), d, P, water_.modulus);
 			water_.pressure[p] = s.pressure;
-			water_.flux[p]     = -s.kappa.value * s.pressureGradient;
+			water_.flux[p]     = -s.kappa.value * conducted(*points_[p].pores, water_.vertical, s.pressureGradient);
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = division_.sum(stored);

@@ -5,9 +5,9 @@
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/near_nodes.hpp"
+#include "core/terms/water/curves_at_nodes.hpp"
 #include "core/terms/water/flow_point.hpp"
 #include "core/terms/water/soil_water.hpp"
-#include "core/terms/water/unsaturated_point.hpp"
 #include <memory>
 #include <utility>
 
@@ -76,11 +76,21 @@ private:
 	void beginUnsaturated(const Eigen::VectorXd& before);
 	void commitSaturation(const State&);
 
-	UnsaturatedPoint<Dim> unsaturated(int p, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const Eigen::VectorXd& P) const
+	UnsaturatedPoint<Dim> unsaturated(
+	        int p, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const CurvesOfNodes::Wetness& now) const
 	{
-		return { *water_.whole, points_[p], &saturationBefore_[std::size_t(p) * windowNodes<Dim>], correction_[p], patch, f, s, P };
+		return { *water_.whole, points_[p], curves_->of(p, before_), curves_->of(p, now), correction_[p], patch, f, s };
+	}
+	/// Conductivity of a cell in the direction of a unit vector.
+	double conductivityAlong(int cell, const Vec<Dim>& direction) const
+	{
+		if (cellRise_.empty()) return cellConductivity_[cell];
+		return cellConductivity_[cell] + cellRise_[cell] * std::pow(water_.vertical.dot(direction), 2);
 	}
 	void        weighCells(const ConstrainedModulus&, const StepContext<Dim>&);
+	void        addCell(Key, double weight, const StepContext<Dim>&);
+	void        weighFaces(const std::vector<double>& softness, const std::vector<double>& permeability, const StepContext<Dim>&);
+	bool        hasDirections() const;
 	void        findNear(const StepContext<Dim>&);
 	void        attachDrains(const StepContext<Dim>&);
 	std::string attachDrain(int number, const StepContext<Dim>&);
@@ -104,10 +114,12 @@ private:
 	std::vector<GhostFace<Dim>>  faces_;
 	NearNodes<Dim>               near_;
 	bool                         isExact_;
-	std::vector<Pores>           ownPores_; ///< pores of each point of the cloud, where some have their own; else empty
-	std::vector<PorePoint>       points_;   ///< points of the cloud
-	std::vector<double>          cellConductivity_;
-	std::vector<double>          saturationBefore_; ///< of each point at the nodes of its patch, where pores need not be full
+	std::vector<Pores>           ownPores_;         ///< pores of each point of the cloud, where some have their own; else empty
+	std::vector<PorePoint>       points_;           ///< points of the cloud
+	std::vector<double>          cellConductivity_; ///< horizontal
+	std::vector<double>          cellRise_;         ///< vertical less horizontal conductivity; empty where they are the same everywhere
+	std::optional<CurvesOfNodes> curves_;           ///< where pores need not be full
+	CurvesOfNodes::Wetness       before_;           ///< as the step begins
 	std::vector<double>          correction_;       ///< what a point has more than its nodes say, over the initial volume
 	std::vector<Cell>            cells_;
 	std::vector<Outlet>          outlets_;

@@ -7,10 +7,11 @@
 namespace gimpm {
 namespace {
 
-/// A position of a drain, and the area that it stands for.
+/// A position of a drain, the area that it stands for, and a vector along the normal.
 template <int Dim> struct DrainPoint {
 	Vec<Dim> at;
 	double   area;
+	Vec<Dim> normal;
 };
 
 /// Quadrature of segments: exact for products of two functions of the grid, wherever they cut the cells.
@@ -27,7 +28,7 @@ std::vector<DrainPoint<2>> quadratureOf(const Surface<2>& surface, const Grid<2>
 			for (const auto& [position, weight] : gauss) {
 				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + position) / 2;
 				const Vec<2> x    = from + part * way;
-				positions.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
+				positions.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid), { way[1], -way[0] } });
 			}
 	}
 	return positions;
@@ -38,10 +39,12 @@ std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>
 {
 	std::vector<DrainPoint<3>> positions;
 	for (const Vec<3>& corner : surface.vertices)
-		positions.push_back({ corner, 0 });
+		positions.push_back({ corner, 0, Vec<3>::Zero() });
 	for (const auto& piece : surface.pieces)
-		for (const int v : piece)
-			positions[v].area += surface.normal(piece, surface.vertices).norm() / 3;
+		for (const int v : piece) {
+			const Vec<3> normal = surface.normal(piece, surface.vertices);
+			positions[v].area += normal.norm() / 3, positions[v].normal += normal;
+		}
 	return positions;
 }
 
@@ -69,10 +72,10 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 	const auto within = Dim == 3 ? corners : attachPositions(middles, step, drain.name);
 	if (!within.obstacle.empty()) return within.obstacle;
 	for (std::size_t i = 0; i < positions.size(); ++i) {
-		const auto& [x, area] = positions[i];
-		const auto&  at       = within.positions[i];
-		const int    cell     = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
-		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
+		const auto& [x, area, normal] = positions[i];
+		const auto&  at               = within.positions[i];
+		const int    cell             = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
+		const double kappa = cell < 0 ? 0 : conductivityAlong(cell, normal.normalized()), passes = water_.duration * area;
 		const double conductance = passes * drain.conductance * kappa / h_;
 		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
 		else if (drain.kind == Drain<Dim>::Kind::rain)

@@ -7,6 +7,13 @@
 
 namespace gimpm {
 
+/// Gradient that drives water times the conductivity over the horizontal one: (I + (ratio - 1) e e^T) grad p.
+template <int Dim> Vec<Dim> conducted(const Pores& pores, const Vec<Dim>& vertical, const Vec<Dim>& gradient)
+{
+	if (pores.verticalRatio == 1) return gradient;
+	return gradient + (pores.verticalRatio - 1) * vertical.dot(gradient) * vertical;
+}
+
 /// Positions of the nodes of a patch along each axis, and in the window of its lowest cell, x fastest.
 template <int Dim> struct PatchShape {
 	int count = 1;
@@ -109,16 +116,16 @@ template <int Dim> struct PresentFunctions {
 	Vec<Dim> gradient[windowNodes<Dim>]; ///< along the axes, in the present configuration
 	Vec<Dim> dilation[windowNodes<Dim>]; ///< d ln J by the displacement of a node
 	double   hoop[windowNodes<Dim>];     ///< over the stretch around the axis
-	double   along[windowNodes<Dim>];    ///< gradient along that of the pressure
+	double   along[windowNodes<Dim>];    ///< gradient along that which drives the water, times the conductivity over the horizontal one
 
-	PresentFunctions(const FlowPoint<Dim>& s, const PointFunctions<Dim>& f)
+	PresentFunctions(const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const Vec<Dim>& conducted)
 	{
 		const Mat<Dim> toPresent = s.inverse.transpose();
 		for (int n = 0; n < f.count; ++n) {
 			gradient[n] = dilation[n] = toPresent * f.gradient[n];
 			hoop[n]                   = f.hoop[n] / s.around;
 			dilation[n][0] += hoop[n];
-			along[n] = s.pressureGradient.dot(gradient[n]);
+			along[n] = conducted.dot(gradient[n]);
 		}
 	}
 };

@@ -99,6 +99,7 @@ public:
 	        , isWhole_(water.whole)
 	        , duration_(water.duration)
 	        , modulus_(water.modulus)
+	        , vertical_(water.vertical)
 	        , weight_(isWhole_ ? Vec<Dim>(water.whole->factor * water.whole->weight) : Vec<Dim>(Vec<Dim>::Zero()))
 	{
 	}
@@ -116,7 +117,7 @@ public:
 
 	void add(const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
-		take(patch, f, now);
+		take(point, patch, f, now);
 		addForces(point, s);
 		if (!blocks_) return;
 		addSymmetric(point, s);
@@ -129,13 +130,12 @@ public:
 	        const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u, const Patch<Dim>& patch, const PointFunctions<Dim>& f,
 	        const PresentFunctions<Dim>& now)
 	{
-		take(patch, f, now);
+		take(point, patch, f, now);
 		std::memset(&wet_, 0, sizeof wet_);
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
 			const int a        = patchShapes<Dim>[patch.span].inWindow[n];
 			wet_.saturation[a] = u.saturation[n], wet_.capacity[a] = u.capacity[n], wet_.stored[a] = u.stored[n], wet_.opening[a] = u.opening[n];
-			wet_.drive[a] = u.drive.dot(now.gradient[n]);
 		}
 		addForcesUnsaturated(point, s, u);
 		if (!blocks_) return;
@@ -168,19 +168,19 @@ public:
 private:
 	static constexpr int field = 1, turns = Dim * (Dim - 1) / 2; // field of the pressure; pairs of axes
 	struct Functions {
-		Row value, hoop, along, gradient[Dim], dilation[Dim];
+		Row value, hoop, along, gradient[Dim], dilation[Dim], vertical;
 	};
 	struct Wetness {
-		Row saturation, capacity, stored, opening, drive;
+		Row saturation, capacity, stored, opening;
 	};
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
 	/// The functions of a point, zero at nodes that it does not have.
-	void take(const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
+	void take(const PorePoint& point, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
 		const auto& inWindow = patchShapes<Dim>[patch.span].inWindow;
 		std::memset(&at_, 0, sizeof at_);
-		count_ = 0;
+		count_ = 0, rise_ = point.pores->verticalRatio - 1;
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
 			const int a    = inWindow[n];
@@ -188,6 +188,7 @@ private:
 			at_.value[a] = f.value[n], at_.hoop[a] = now.hoop[n], at_.along[a] = now.along[n];
 			for (int i = 0; i < Dim; ++i)
 				at_.gradient[i][a] = now.gradient[n][i], at_.dilation[i][a] = now.dilation[n][i];
+			if (rise_ != 0) at_.vertical[a] = vertical_.dot(now.gradient[n]);
 		}
 	}
 
@@ -204,10 +205,26 @@ private:
 			force_[Dim][a] += passes + ofStored, absoluteContributions_[Dim][a] += std::abs(passes) + std::abs(ofStored);
 		}
 	}
-	static void addTimes(Row& to, double factor, const Row& row)
+	static void addTimes(Row& __restrict to, double factor, const Row& __restrict row)
 	{
 		for (std::size_t b = 0; b < std::size(to); ++b)
 			to[b] += factor * row[b];
+	}
+	/// Three rows at once, in order, so that `to` is read and written once.
+	static void addTimes(
+	        Row& __restrict to, double first, const Row& __restrict a, double second, const Row& __restrict b, double third, const Row& __restrict c)
+	{
+		for (std::size_t i = 0; i < std::size(to); ++i)
+			to[i] = to[i] + first * a[i] + second * b[i] + third * c[i];
+	}
+
+	/// Adds the products of the gradient of a node and those of all, each direction times its conductivity over the
+	/// horizontal one.
+	void addProducts(Row& to, int a) const
+	{
+		for (int i = 0; i < Dim; ++i)
+			addTimes(to, at_.gradient[i][a], at_.gradient[i]);
+		if (rise_ != 0) addTimes(to, rise_ * at_.vertical[a], at_.vertical);
 	}
 
 	/// Adds the symmetric part, with w = grad p and g the present gradients: equation (6.5) of
@@ -228,6 +245,7 @@ private:
 					addTimes(turn_[pair][a], -pushes * at_.gradient[i][a], at_.gradient[k]);
 				}
 			}
+			if (rise_ != 0) addTimes(pp_[a], flow * rise_ * at_.vertical[a], at_.vertical);
 			if (stored != 0) addTimes(pp_[a], stored * at_.value[a], at_.value);
 		}
 	}
@@ -250,13 +268,11 @@ private:
 		for (int m = 0; m < count_; ++m) {
 			const int a        = own_[m];
 			Row       products = {};
+			addProducts(products, a);
 			for (int i = 0; i < Dim; ++i)
-				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
-			for (int i = 0; i < Dim; ++i) {
-				addTimes(pu_[i][a], point.coupling() * V * E * at_.value[a] + led * at_.along[a], at_.dilation[i]);
-				addTimes(pu_[i][a], -flow * s.pressureGradient[i], products);
-				addTimes(pu_[i][a], -flow * at_.gradient[i][a], at_.along);
-			}
+				addTimes(
+				        pu_[i][a], point.coupling() * V * E * at_.value[a] + led * at_.along[a], at_.dilation[i], -flow * s.pressureGradient[i],
+				        products, -flow * at_.gradient[i][a], at_.along);
 			addTimes(pp_[a], flow / modulus_ * at_.along[a], at_.value);
 		}
 	}
@@ -271,7 +287,7 @@ private:
 				const double push = -V * u.push.value * at_.dilation[i][a], weight = -gained * weight_[i] * at_.value[a];
 				force_[i][a] += push + weight, absoluteContributions_[i][a] += std::abs(push) + std::abs(weight);
 			}
-			const double passes = flow * wet_.drive[a], ofStored = V0 * wet_.stored[a] * at_.value[a];
+			const double passes = flow * at_.along[a], ofStored = V0 * wet_.stored[a] * at_.value[a];
 			force_[Dim][a] += passes + ofStored, absoluteContributions_[Dim][a] += std::abs(passes) + std::abs(ofStored);
 		}
 	}
@@ -315,16 +331,12 @@ private:
 		for (int m = 0; m < count_; ++m) {
 			const int a        = own_[m];
 			Row       products = {};
+			addProducts(products, a);
+			addTimes(pp_[a], flow, products, full * at_.along[a], wet_.opening, flow / modulus_ * at_.along[a], at_.value);
 			for (int i = 0; i < Dim; ++i)
-				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
-			addTimes(pp_[a], flow, products);
-			addTimes(pp_[a], full * wet_.drive[a], wet_.opening);
-			addTimes(pp_[a], flow / modulus_ * wet_.drive[a], at_.value);
-			for (int i = 0; i < Dim; ++i) {
-				addTimes(pu_[i][a], led * wet_.drive[a], at_.dilation[i]);
-				addTimes(pu_[i][a], -flow * s.pressureGradient[i], products);
-				addTimes(pu_[i][a], -flow * at_.gradient[i][a], wet_.drive);
-			}
+				addTimes(
+				        pu_[i][a], led * at_.along[a], at_.dilation[i], -flow * s.pressureGradient[i], products, -flow * at_.gradient[i][a],
+				        at_.along);
 		}
 	}
 	/// Weight of the water that a point takes up, on the displacements: it pulls the point down.
@@ -360,6 +372,7 @@ private:
 	const FlowBlocks<Dim>* blocks_;
 	const bool             isSymmetric_, isAxisymmetric_, isWhole_;
 	const double           duration_, modulus_;
+	const Vec<Dim>         vertical_;
 	const Vec<Dim>         weight_; // of water on the soil, where it is not that of still water [N/m3]
 	std::array<int, N>     node_;
 	Row                    force_[Dim + 1], absoluteContributions_[Dim + 1];  // the last one: of the pressure
@@ -369,6 +382,7 @@ private:
 	Wetness                wet_;                                              // wetness of the point at hand, where pores need not be full
 	Functions              at_;                                               // functions of the point at hand, zero at other nodes
 	int                    own_[N], count_ = 0;                               // its nodes
+	double                 rise_ = 0;                                         // its vertical over horizontal conductivity, less one
 };
 
 } // namespace gimpm

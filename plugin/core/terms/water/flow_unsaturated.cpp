@@ -7,9 +7,9 @@ namespace gimpm {
 /// Gives nodes the content that their points have more or less than these say, as points have moved on the grid.
 template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 {
-	constexpr int nodes = windowNodes<Dim>;
-	const auto&   known = water_.whole->saturation;
-	saturationBefore_.assign(points_.size() * nodes, 0);
+	const auto& known = water_.whole->saturation;
+	curves_.emplace(points_, basis_);
+	before_ = curves_->at(P);
 	correction_.assign(points_.size(), 0);
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
@@ -18,9 +18,7 @@ template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 			double                    saturation = 0;
 			for (int n = 0; n < f.count; ++n) {
 				if (patch.node[n] < 0) continue;
-				const double S                                = saturationOf(*points_[p].pores, P[patch.node[n]]).value;
-				saturationBefore_[std::size_t(p) * nodes + n] = S;
-				saturation += f.value[n] * S;
+				saturation += f.value[n] * curves_->of(p, before_)[patch.node[n]].saturation.value;
 			}
 			if (!known.empty() && !std::isnan(known[p])) correction_[p] = (known[p] - saturation) * points_[p].content;
 		}
@@ -28,19 +26,20 @@ template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 
 template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
 {
-	const Eigen::VectorXd P      = state.value(field);
-	double                stored = 0;
+	const Eigen::VectorXd P       = state.value(field);
+	const auto            wetness = curves_->at(P);
+	double                stored  = 0;
 	water_.whole->saturation.resize(points_.size());
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int                   p = basis_.order[i];
 			const PointFunctions<Dim>   f(basis_, i, patch);
 			const FlowPoint<Dim>        s(points_[p], patch, f, state.displacements(), P, water_.modulus);
-			const UnsaturatedPoint<Dim> u = unsaturated(p, patch, f, s, P);
+			const UnsaturatedPoint<Dim> u = unsaturated(p, patch, f, s, wetness);
 			for (int n = 0; n < f.count; ++n)
 				stored += points_[p].volume / points_[p].ratio * f.value[n] * u.stored[n];
 			water_.whole->saturation[p] = u.content / u.filled;
-			water_.flux[p]              = -s.kappa.value * u.permeability * u.drive;
+			water_.flux[p]              = -s.kappa.value * u.permeability * conducted(*points_[p].pores, water_.vertical, u.drive);
 		}
 	water_.stored = division_.sum(stored);
 }

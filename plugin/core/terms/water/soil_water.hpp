@@ -66,13 +66,14 @@ template <int Dim> struct WholeWater {
 };
 
 template <int Dim> struct SoilWater {
-	std::vector<Pores>      pores;                                                   ///< pores by material
-	std::vector<Pores>      ownPores {};                                             ///< pores of each point, where some have their own; else empty
-	double                  modulus       = std::numeric_limits<double>::infinity(); ///< bulk modulus of the water [Pa]
-	double                  duration      = 0;                                       ///< duration of the step [s]
-	double                  stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
-	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
-	std::vector<Drain<Dim>> drains {};
+	std::vector<Pores>            pores;                                                   ///< pores by material
+	std::vector<Pores>            ownPores {};                                             ///< pores of each point, where some have their own; else empty
+	double                        modulus       = std::numeric_limits<double>::infinity(); ///< bulk modulus of the water [Pa]
+	double                        duration      = 0;                                       ///< duration of the step [s]
+	Eigen::Matrix<double, Dim, 1> vertical      = Eigen::Matrix<double, Dim, 1>::Unit(Dim - 1); ///< axis of Pores::verticalRatio
+	double                        stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
+	double                        ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
+	std::vector<Drain<Dim>>       drains {};
 
 	std::optional<WholeWater<Dim>> whole {}; ///< none: pressures are in excess of still water, and all pores are full
 

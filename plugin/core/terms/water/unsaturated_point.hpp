@@ -17,6 +17,11 @@ inline Retention::Value permeabilityOf(const Pores& pores, double pressure)
 	return pores.retention ? pores.retention->relativePermeability(pressure) : Retention::Value { 1, 0 };
 }
 
+/// Degree of saturation and relative permeability at the pressure of a node.
+struct NodeWetness {
+	Retention::Value saturation { 1, 0 }, permeability { 1, 0 };
+};
+
 /// Pressure that acts on the grains: chi p, with Bishop's factor chi of a suction, and one of a pressure.
 inline Retention::Value pressureOnGrains(const Pores& pores, Bishop bishop, double pressure)
 {
@@ -44,11 +49,11 @@ template <int Dim> struct UnsaturatedPoint {
 	double           permeability;         ///< relative
 	Vec<Dim>         drive;                ///< gradient of the pressure less the weight of the water [Pa/m]
 
-	/// `before`: saturations of the nodes as the step begins. `correction`: what the point has more than they say.
-	template <class Pressures>
+	/// `before`, `now`: curves of the point at all nodes, as the step begins and at the iterate. `correction`: what
+	/// it has more than the nodes say.
 	UnsaturatedPoint(
-	        const WholeWater<Dim>& water, const PorePoint& point, const double* before, double correction, const Patch<Dim>& patch,
-	        const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const Pressures& P)
+	        const WholeWater<Dim>& water, const PorePoint& point, const std::vector<NodeWetness>& before, const std::vector<NodeWetness>& now,
+	        double correction, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s)
 	        : filled(point.content + s.content)
 	        , push(pressureOnGrains(*point.pores, water.bishop, s.pressure))
 	        , permeability(0)
@@ -58,12 +63,11 @@ template <int Dim> struct UnsaturatedPoint {
 		permeability    = (1 - ofNodes) * here.value;
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
-			const auto k = permeabilityOf(*point.pores, P[patch.node[n]]);
+			const auto& [S, k] = now[patch.node[n]];
 			permeability += ofNodes * f.value[n] * k.value;
 			opening[n]    = f.value[n] * ((1 - ofNodes) * here.slope + ofNodes * k.slope);
-			const auto S  = saturationOf(*point.pores, P[patch.node[n]]);
 			saturation[n] = S.value, capacity[n] = S.slope * filled;
-			stored[n] = S.value * s.content + (S.value - before[n]) * point.content - correction;
+			stored[n] = S.value * s.content + (S.value - before[patch.node[n]].saturation.value) * point.content - correction;
 			content += f.value[n] * S.value * filled;
 		}
 	}

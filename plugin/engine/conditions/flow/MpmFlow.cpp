@@ -59,7 +59,7 @@ std::map<string, string> MpmFlow::warnings(const Analysis&, const vector<Materia
 	for (const MaterialPoint& point : points) {
 		if (point.material.get() == last) continue;
 		last                 = point.material.get();
-		const Real         k = last->conductivity;
+		const Real         k = last->conductivity.largest();
 		std::ostringstream text;
 		if (k > 0 && k < least)
 			text << "material '" << last->label << "': conductivity = " << k

@@ -21,11 +21,17 @@ namespace {
 			refuseMaterial(
 			        point,
 			        "is undrained = True: no water can leave it, while MpmFlow lets it flow; for soil that lets none through give conductivity=0.");
-		if (std::isnan(m.conductivity))
+		if (std::isnan(m.conductivity.horizontal))
 			refuseMaterial(point, "has no conductivity [m/s], which MpmFlow needs: 1e-2 (gravel) to 1e-11 (clay), or 0 where nothing passes.");
 		if (std::isnan(m.porosity)) refuseMaterial(point, "has no porosity [-], which MpmFlow needs: 0.3 (dense sand) to 0.7 (soft clay).");
-		gimpm::Pores pores { m.conductivity / unitWeight, m.porosity };
-		pores.areRigid = point.material->isDugOut;
+		if (point.material->conductivity.isPair() && point.state->parameter("conductivity") && !point.state->parameter("verticalConductivity"))
+			refuseMaterial(
+			        point,
+			        "has conductivity = " + textOf(point.material->conductivity)
+			                + ", and the point has one of its own that is a single number: give points verticalConductivity, too (mpm.assign), or the material one number.");
+		gimpm::Pores pores { m.conductivity.horizontal / unitWeight, m.porosity };
+		pores.verticalRatio = m.conductivity.ratio();
+		pores.areRigid      = point.material->isDugOut;
 		if (m.conductivityLaw == "kozeny-carman") pores.law = gimpm::Pores::Law::kozenyCarman;
 		if (m.conductivityLaw == "log") pores.law = gimpm::Pores::Law::logarithmic, pores.index = m.conductivityIndex;
 		return pores;
@@ -89,6 +95,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.modulus       = from->bulkModulus;
 	water.stabilisation = !std::isnan(from->stabilisation) ? from->stabilisation : around.analysis.isDynamic() ? ofSoilThatMoves : ofSteadySoil;
 	water.ghost         = from->ghost;
+	if (const Vector3r& gravity = around.analysis.gravity; !gravity.isZero(0)) water.vertical = gravity.normalized().template head<Dim>();
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
@@ -101,7 +108,8 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	for (size_t p = 0; p < around.cloud.size(); ++p) {
 		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
 		sum += modulus / count;
-		fastest = std::max(fastest, modulus * (water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p]).conductivity);
+		const gimpm::Pores& pores = water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p];
+		fastest                   = std::max(fastest, modulus * pores.conductivity * pores.largestRatio());
 	}
 	sum = model.division->sum(sum), fastest = model.division->largest(fastest);
 	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
@@ -124,7 +132,7 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 {
 	const auto& points = around.points;
 	const bool  differ = !division.isWhole() || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) {
-                return point.state->parameter("conductivity") || point.state->parameter("porosity");
+                return point.state->parameter("conductivity") || point.state->parameter("verticalConductivity") || point.state->parameter("porosity");
         });
 	OwnMaterial own;
 	for (size_t p = 0; p < points.size(); ++p) {

@@ -25,7 +25,7 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 
 	Beams of the engine (``MpmBeam``) are walls for the water, tight or leaky by their *permittivity*, where they have been put in, down to the line of the grid that is nearest to their tip.
 
-	Darcy's law with the *conductivity* of the materials, or that of points' own, on the grid of the engine, whose cells the body may cut. Above the free surface the soil conducts a thousandth of
+	Darcy's law with the *conductivity* of the materials, also along and across layers, or that of points' own, on the grid of the engine, whose cells the body may cut. Above the free surface the soil conducts a thousandth of
 	that, with a transition of half a cell; pressures below zero are none. Nothing moves: consolidation is ``MpmImplicitEngine.flow``.
 
 	:param levels: pairs of a surface of the body (``MpmSurface``, or points) and the height [m] up to which water stands before it; above that height water may come out
@@ -42,9 +42,9 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 	points, materials, number = pointsOf(solver)
 	if not len(points['id']): raise ValueError(noPoints('seepage', solver))
 	_requirePlane(solver, unitWeight)
-	conductivity = _conductivities(points, materials, number)
+	conductivities = _conductivities(points, materials, number)
 	walls = [load for load in solver.loads if isinstance(load, wrapper.MpmBeam) and load.permittivity < math.inf]
-	body = _Body(solver.grid, points, conductivity / unitWeight, unitWeight, walls)
+	body = _Body(solver.grid, points, conductivities / unitWeight, unitWeight, walls)
 	outlets = [_Outlet(body, f'levels[{i}]', *_pair(i, pair)) for i, pair in enumerate(levels)]
 	outlets += [_Outlet(body, f'faces[{i}]', _surface(f'faces[{i}]', face), -math.inf) for i, face in enumerate(faces)]
 	if not levels: raise ValueError('seepage: levels = () has no surface where water stands: give pairs of a surface and a height')
@@ -88,12 +88,21 @@ def _requirePlane(solver, unitWeight):
 
 
 def _conductivities(points, materials, number):
-	"""Conductivity of each point, its own or that of its material."""
-	found = points['conductivity'] if 'conductivity' in points else np.array([material.conductivity for material in materials])[number]
-	wrong = np.flatnonzero(~(found > 0))
+	"""(N, 2) horizontal and vertical conductivity of each point, its own or that of its material."""
+	pairs = [material.conductivity if isinstance(material.conductivity, tuple) else (material.conductivity, math.nan) for material in materials]
+	found = np.array(pairs)[number]
+	for axis, name in enumerate(('conductivity', 'verticalConductivity')):
+		if name in points: found[:, axis] = points[name]
+	if 'conductivity' in points and 'verticalConductivity' not in points and not np.isnan(found[:, 1]).all():
+		label = materials[number[np.flatnonzero(~np.isnan(found[:, 1]))[0]]].label
+		raise ValueError(f'seepage: points of the material {label!r}, whose conductivity is a pair, have one of their own that is a single number: give them verticalConductivity, too')
+	found[:, 1] = np.where(np.isnan(found[:, 1]), found[:, 0], found[:, 1])
+	wrong = np.flatnonzero(~(found > 0).all(axis=1))
 	if not len(wrong): return found
-	label = materials[number[wrong[0]]].label
-	raise ValueError(f'seepage: the material {label!r} has conductivity = {found[wrong[0]]}; expected is a number > 0 [m/s], 1e-2 (gravel) to 1e-11 (clay)')
+	material = materials[number[wrong[0]]]
+	raise ValueError(
+	        f'seepage: the material {material.label!r} has conductivity = {brief(material.conductivity)}; expected is a number > 0 [m/s], 1e-2 (gravel) to 1e-11 (clay), or a pair (horizontal, vertical)'
+	)
 
 
 def _pair(i, pair):
@@ -152,7 +161,7 @@ class _Body:
 		middle, volume, self.kappa = (np.concatenate(column) for column in zip(*parts))
 		cell = np.floor(middle).astype(int)
 		corners = cell[:, None, :] + _corners
-		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
+		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))  # horizontal and vertical
 		self.walls = [_Wall(number, beam, self) for number, beam in enumerate(beams)]
 		self.nodes, number = np.unique(self.copies(middle, corners).reshape(-1, 3), axis=0, return_inverse=True)
 		self.node = number.reshape(-1, 4)
@@ -260,7 +269,8 @@ class _Outlet:
 		self.node = body.numbersOf(x + 1e-3 * inwards, cell[:, None, :] + _corners)
 		self.given = body.weight * np.maximum(0, level - self.x[:, 1])
 		self.mayEnter = self.x[:, 1] <= level + 1e-9 * body.h
-		self.skin = _skin / body.h * np.array([body.cells[tuple(c)] for c in cell.tolist()]) * self.length
+		normal = (np.array([body.cells[tuple(c)] for c in cell.tolist()]) * inwards**2).sum(axis=1)
+		self.skin = _skin / body.h * normal * self.length
 
 	def pressure(self, p):
 		return (self.values * p[self.node]).sum(axis=1)
@@ -290,13 +300,13 @@ def _solve(body, outlets, highest):
 def _pressures(body, outlets, p, wetness):
 	"""Solution of the equations of one iterate, by conjugate gradients from its pressures on. Their matrix is singular where a part of the soil has no outlet."""
 	from scipy.sparse import coo_matrix
-	flow, skins, count = wetness * body.kappa * body.volume, [outlet.conducts(p) for outlet in outlets], len(p)
+	flow, skins, count = (wetness * body.volume)[:, None] * body.kappa, [outlet.conducts(p) for outlet in outlets], len(p)
 	ofValues = lambda weight, values: weight[:, None, None] * values[:, :, None] * values[:, None, :]
-	terms = [(body.node, flow[:, None, None] * np.einsum('pai,pbi->pab', body.slopes, body.slopes))]
+	terms = [(body.node, np.einsum('pi,pai,pbi->pab', flow, body.slopes, body.slopes))]
 	terms += [(outlet.node, ofValues(skin, outlet.values)) for outlet, skin in zip(outlets, skins)] + [(leak.node, ofValues(leak.conductance, leak.values)) for leak in body.leaks]
 	entries, rows, columns = (np.concatenate(parts) for parts in zip(*((x.ravel(), np.repeat(node, node.shape[1]), np.tile(node, node.shape[1]).ravel()) for node, x in terms)))
 	matrix = coo_matrix((entries, (rows, columns)), (count, count)).tocsr()
-	right = np.bincount(body.node.ravel(), (-body.weight * flow[:, None] * body.slopes[:, :, 1]).ravel(), count)
+	right = np.bincount(body.node.ravel(), (-body.weight * flow[:, 1:] * body.slopes[:, :, 1]).ravel(), count)
 	for outlet, skin in zip(outlets, skins): right += np.bincount(outlet.node.ravel(), ((skin * outlet.given)[:, None] * outlet.values).ravel(), count)
 	scale = 1 / matrix.diagonal()
 	r = right - matrix @ p
