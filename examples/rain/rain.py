@@ -4,7 +4,9 @@
 
 	front  a wetting front in a column of dry sand (Celia, Bouloutas and Zarba 1990): where it is after a day
 	rain   a column above a water table, on which it begins to rain harder (Srivastava and Yeh 1991): heads by a closed form
+	layers two layers under the same rain, the upper one ten times as permeable: heads by a closed form
 	slope  an infinite slope with steady infiltration (Lu and Godt 2008): the factor of safety from the stresses of elastic soil
+	failure  an infinite slope on rock that fails after days of rain: when, beside limit equilibrium with Richards' equation along the normal
 
 Run it with `scripts/run examples/rain/rain.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -14,28 +16,30 @@ import time
 
 from yade import mpm
 import numpy as np
-sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+sys.path[:0] = os.path.dirname(sys.argv[0]), os.path.join(os.path.dirname(sys.argv[0]), '..')
 from options import compared, readOptions
 from style import plt
+from volumes import Section, Soil, vanGenuchten
 
 options = readOptions('Rain and suction.',
-        scene=('all', "'all', or one of 'front', 'rain' and 'slope'"),
+        scene=('all', "'all', or one of 'front', 'rain', 'layers', 'slope' and 'failure'"),
         cells=(80, 'over the height of the columns and of the slope'),
         cut=(0.5, 'part of a cell that soil fills where the surface cuts one'),
         longest=(0.005, 'longest step, over the time of the scene'))
 weight, stiff = 9810., 1e9  # of water [N/m3]; Young's modulus of soil that hardly moves [Pa]
 
 
-def scene(height, gravity, pressure, drains, **soil):
-	"""One cell wide, y along the normal of the ground. `pressure`: as it begins, a function of y."""
+def scene(height, gravity, pressure, drains, upper=None, law=MpmElasticMat, **soil):
+	"""One cell wide, y along the normal of the ground. `pressure`: as it begins, a function of y. `upper`: what is different of an upper layer of the same thickness."""
 	O.reset()
-	O.materials.append(MpmElasticMat(young=stiff, poisson=0.3, density=19e3 / 9.81, label='soil', **soil))
-	h = height / (options.cells + options.cut)
+	for label, own in ('soil', {}), ('upper', upper or {}):
+		O.materials.append(law(young=stiff, poisson=0.3, density=19e3 / 9.81, label=label, **(soil | own)))
+	h = height / ((2 if upper else 1) * options.cells + options.cut)
 	grid = MpmGrid(cellSize=h, period=(3 * h, 0, 0))
-	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3 * h, 0), (3 * h, height), (0, height)]), grid, 2, 'soil'))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3 * h, 0), (3 * h, height), (0, height)]), grid, 2, lambda x: 'upper' if x[1] > height / 2 else 'soil'))
 	mpm.assign(excessPressure=[pressure(y) for y in mpm.arrays()['pos'][:, 1]])
 	top, base = [(3 * h, height), (0, height)], [(0, 0), (3 * h, 0)]
-	flow = MpmFlow(total=True, drains=[MpmDrain(surface=surface, conductance=300, **given) for surface, given in zip((top, base), drains)])
+	flow = MpmFlow(total=True, drains=[MpmDrain(surface=surface, conductance=300, **given) for surface, given in zip((top, base), drains) if given])
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=gravity, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], flow=flow, newton=MpmNewton(tolerance=1e-9), loadCurve=[(0, 1), (1, 1)], verbosity=0)]
 	return O.engines[0]
 
@@ -78,29 +82,68 @@ def front(axes):
 	below(axes)
 
 
-known = {  # heads [m] at the heights .2 .4 .6 .8 1 m, by hours of rain
-        1: (-.1506, -.2150, -.22805, -.22602, -.07259), 5: (-.15058, -.21335, -.19544, -.10301, -.03066), 10: (-.1458, -.1692, -.1077, -.04973, -.01913),
-        15: (-.12046, -.10939, -.06274, -.03028, -.01484), 30: (-.0420, -.03316, -.02102, -.01413, -.01129)}
+def layered(z, time, alpha, conductivities, content, thickness, before, after):
+	"""Heads [m] at heights z of two layers that are equally thick, of exponential soil, with a water table at the base. The flux through the top [m/s] changes from `before` to `after` at time zero.
+
+	W = exp(alpha psi) has a linear equation (Srivastava and Yeh 1991), which is solved for its Laplace transform, and that is inverted along Talbot's contour (Abate and Valko 2004).
+	"""
+	lower = z < thickness
+
+	def steady(flux):
+		low, up = (flux / k for k in conductivities)
+		between = low + (1 - low) * np.exp(-alpha * thickness)
+		return np.where(lower, low + (1 - low) * np.exp(-alpha * z), up + (between - up) * np.exp(-alpha * (z - thickness)))
+
+	def grown(s):
+		"""Transform of what W grows: sinh in the lower layer; cosh and sinh in the upper one, by W and flux at the interface."""
+		first, second = (np.sqrt(alpha**2 / 4 + alpha * content / k * s) for k in conductivities)
+		sinh, cosh, fall = np.sinh(first * thickness), np.cosh(first * thickness), np.exp(-alpha * thickness / 2)
+		a, x = fall * sinh, z - thickness
+		b = (conductivities[0] / conductivities[1] * fall * (first * cosh / alpha + sinh / 2) - a / 2) * alpha / second
+		sinh, cosh = np.sinh(second * thickness), np.cosh(second * thickness)
+		top = conductivities[1] * fall * (second / alpha * (a * sinh + b * cosh) + (a * cosh + b * sinh) / 2)
+		found = np.where(lower, np.exp(-alpha * z / 2) * np.sinh(first * z), np.exp(-alpha * x / 2) * (a * np.cosh(second * x) + b * np.sinh(second * x)))
+		return (after - before) / s / top * found
+
+	if time == 0: return np.log(steady(before)) / alpha
+	terms = 24
+	r, angles = 2 * terms / (5 * time), np.pi / terms * np.arange(1, terms)
+	total = .5 * np.exp(r * time) * grown(r + 0j).real
+	for angle in angles:
+		s, slope = r * angle * (1 / np.tan(angle) + 1j), angle + (angle / np.tan(angle) - 1) / np.tan(angle)
+		total += (np.exp(s * time) * (1 + 1j * slope) * grown(s)).real
+	return np.log(steady(before) + r / terms * total) / alpha
+
+
+def column(axes, name, height, K, upper=None):
+	"""Rain on exponential soil above a water table, a tenth of the conductivity of the lower layer and then nine tenths: heads at six times against the closed form."""
+	alpha, flux = 10, (.1 * K[0], .9 * K[0])
+	form = lambda z, time: layered(z, time, alpha, K, .34, height / 2, *flux)
+	soil = dict(conductivity=K[0], porosity=.4, retention=MpmGardner(alpha=alpha, residual=.06 / .4), upper=upper)
+	solver = scene(height, (0, -9.81, 0), lambda y: weight * form(np.array([y]), 0)[0], (dict(rain=flux[0]), dict(pressure=0)), **soil)
+	advance(1e9, 100, 1e9)
+	begin, worst, at = O.time, 0, .8 * height
+	span = np.ptp(form(profile()[0], 0))
+	solver.flow.drains[0].rain = flux[1]
+	for hours in 1, 2, 5, 10, 20, 50:
+		advance(begin + hours * 3600, 20, 4 * options.longest * hours * 3600)
+		z, p = profile()
+		heads = form(z, hours * 3600.)
+		worst = max(worst, abs(p / weight - heads).max())
+		compared(f'head {at:g} m above the water table{" in layers" if upper else ""} after {hours} h of rain', np.interp(at, z, p / weight), np.interp(at, z, heads), 'Srivastava and Yeh 1991', 'm')
+		axes.plot(p / weight, z, label=f'{hours} h')
+		axes.plot(heads[::len(z) // 20], z[::len(z) // 20], 'ko', ms=2)
+	print(f'{name}: heads within {worst * 1e3:.2f} mm of the closed form, {100 * worst / span:.2f} % of their range')
+	axes.set(title=f'{name}, dots: closed form', xlabel='head [m]')
+	below(axes)
 
 
 def rain(axes):
-	soil = dict(conductivity=.01 / 3600, porosity=.4, retention=MpmGardner(alpha=10, residual=.06 / .4))
-	solver = scene(1, (0, -9.81, 0), lambda y: -weight * min(y, .2), (dict(rain=.001 / 3600), dict(pressure=0)), **soil)
-	advance(1e8, 100, 1e8)
-	begin, worst = O.time, 0
-	solver.flow.drains[0].rain = .009 / 3600
-	for hours, heads in known.items():
-		advance(begin + hours * 3600, 20, options.longest * 30 * 3600)
-		z, p = profile()
-		found = np.interp((.2, .4, .6, .8, 1), z, p / weight)
-		found[-1] = p[-1] / weight + (1 - z[-1]) * (p[-1] - p[-2]) / weight / (z[-1] - z[-2])
-		worst = max(worst, abs(found - heads).max())
-		compared(f'head 0.8 m above the water table after {hours} h of rain', found[3], heads[3], 'Srivastava and Yeh 1991', 'm')
-		axes.plot(p / weight, z, label=f'{hours} h')
-		axes.plot(heads, (.2, .4, .6, .8, 1), 'ko', ms=3)
-	print(f'rain: heads within {worst * 1e3:.2f} mm of the closed form, {100 * worst / .22805:.2f} % of their range')
-	axes.set(title='rain on a column, dots: closed form', xlabel='head [m]')
-	below(axes)
+	column(axes, 'rain', 1, (.01 / 3600, .01 / 3600))
+
+
+def layers(axes):
+	column(axes, 'layers', 2, (.01 / 3600, .1 / 3600), upper=dict(conductivity=.1 / 3600))
 
 
 def slope(axes):
@@ -126,11 +169,48 @@ def slope(axes):
 	below(axes)
 
 
+def failure(axes):
+	"""2 m along the normal, with a head of -1 m at the rock, which lets no water through. Limit equilibrium has the suction stress and the weight of the water that is there."""
+	beta, phi, cohesion, H, K, porosity, q, head = np.radians(40), np.radians(35), 2e3, 2., 1e-6, .4, 5e-7, -1.
+	saturation, permeability = vanGenuchten(1., 2.)
+	section = Section((1, 200), (1, H), Soil(K, porosity, saturation, permeability), fall=np.cos(beta))
+	section.rain[:] = q * np.cos(beta)
+
+	def factor(h):
+		S = saturation(h)[0]
+		weights = (19e3 - porosity * (1 - S) * weight) * section.dz
+		above = np.cumsum(weights[::-1])[::-1] - weights / 2
+		return ((cohesion + (np.cos(beta) * above - weight * np.where(h < 0, S, 1) * h) * np.tan(phi)) / (np.sin(beta) * above)).min()
+
+	hours = np.arange(0, 301, 2.)
+	start = head - section.z[None] * np.cos(beta)
+	factors = [factor(h[0]) for h in section.run(start, hours * 3600, 3600)]
+	expected = np.interp(-1, -np.array(factors), hours)
+	steep = np.arcsin(np.tan(phi))  # without dilation soil bears tan(phi) = sin(steep) in simple shear (Davis 1968); with it water that is drawn in would delay the failure
+	soil = dict(conductivity=K, porosity=porosity, retention=MpmVanGenuchten(alpha=1, n=2), cohesion=cohesion / np.cos(steep), frictionAngle=steep, dilationAngle=0)
+	scene(H, (9.81 * np.sin(beta), -9.81 * np.cos(beta), 0), lambda y: weight * (head - y * np.cos(beta)), (dict(rain=q * np.cos(beta)), None), law=MpmMohrCoulombMat, **soil)
+	O.engines[0].newton.tolerance = 1e-6
+	try:
+		while O.time < 1.5 * expected * 3600:
+			O.dt = (.02 if O.time < .9 * expected * 3600 else .0025) * expected * 3600
+			O.step()
+	except RuntimeError:  # no equilibrium any more
+		failed = (O.time + O.dt) / 3600
+	print(f'failure: after {failed:.1f} h of rain, by limit equilibrium {expected:.1f} h, {100 * (failed / expected - 1):+.2f} %')
+	compared('time to failure of an infinite slope under rain', failed, expected, "limit equilibrium with Richards' equation by finite volumes", 'h')
+	axes.plot(hours, factors, label='limit equilibrium')
+	axes.axvline(failed, color='k', ls='--', lw=1, label='no equilibrium any more')
+	axes.set(title='infinite slope under rain', xlabel='time [h]', ylabel='factor of safety')
+	below(axes)
+
+
 begin = time.time()
-scenes = dict(front=front, rain=rain, slope=slope)
+scenes = dict(front=front, rain=rain, layers=layers, slope=slope, failure=failure)
 chosen = scenes if options.scene == 'all' else [options.scene]
-figure, axes = plt.subplots(1, len(chosen), figsize=(4.6 * len(chosen), 4.8), layout='constrained', squeeze=False)
-for name, ax in zip(chosen, axes[0]):
+rows = 2 if len(chosen) > 3 else 1
+figure, axes = plt.subplots(rows, (len(chosen) + rows - 1) // rows, figsize=(4.6 * len(chosen) / rows, 4.6 * rows), layout='constrained', squeeze=False)
+for ax in axes.flat[len(chosen):]: ax.remove()
+for name, ax in zip(chosen, axes.flat):
 	scenes[name](ax)
 figure.savefig(os.path.join(options.out, 'rain.png'), dpi=110)
 print(f'{time.time() - begin:.0f} s')
