@@ -2,6 +2,7 @@
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has
 // started, and for work on all material points at once.
 #include "core/solvers/multigrid.hpp"
+#include "engine/conditions/flow/poreWater.hpp"
 #include "engine/conditions/water/waterAround.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/assignment.hpp"
@@ -43,6 +44,8 @@ void defineHelpers()
 	py::def(
 	        "touchableBodies", +[](const MpmImplicitEngine& engine) { return touchableBodiesForPython(engine); },
 	        "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
+	py::def("poreWater", &poreWaterForPython,
+	        "For mpm.geostatic: degrees of saturation, pressures on the grains and relative permeabilities of a material at pressures in an MpmFlow.");
 	py::def(
 	        "waterAround",
 	        +[](const MpmImplicitEngine& engine, const py::object& positions, const py::object& halfSizes) {

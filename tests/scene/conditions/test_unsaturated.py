@@ -185,3 +185,61 @@ print(json.dumps([found['lower'], found['upper']]))
 	vertical = 19e3 * 2 / cos(beta)
 	factor = tan(phi) * (vertical * cos(beta)**2 + s / sqrt(1 + (s / 9810)**2)) / (vertical * sin(beta) * cos(beta))
 	assert factor > 1.4 and (low + high) / 2 == pytest.approx(factor, rel=0.03)
+
+
+def test_ground_with_suction_is_at_rest(yade):
+	"""mpm.geostatic: effective stress with Bishop's suction stress, weight of the water that is there; hydrostatic, and with steady infiltration, in layers."""
+	rest, stress, flows, said = yade(
+	        setting + '''
+def ground(q=0, layers=False, h=.25, **of):
+	O.reset()
+	for label, more in ('clay', dict(conductivity=1e-7, retention=sand(alpha=1.))), ('sand', {}):
+		O.materials.append(MpmElasticMat(**(dict(young=1e7, poisson=0.2, density=2000, conductivity=k, porosity=.4, retention=sand(), label=label) | more)))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (.5, 0), (.5, 3), (0, 3)]), grid, 2, lambda x: 'clay' if layers and x[1] < 2 else 'sand'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(.5, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	drains = [MpmDrain(surface=[(0, 0), (.5, 0)], level=1, conductance=1e4), MpmDrain(surface=[(.5, 3), (0, 3)], rain=q)]
+	if q: drains[0] = MpmDrain(surface=[(0, 0), (.5, 0)], flux=q)
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, gravity=(0, -10, 0), gravityCurve=[(0, 1)], loadCurve=[(0, 1), (1, 1)], verbosity=0, flow=MpmFlow(total=True, drains=drains))]
+	O.engines[0].newton.tolerance = 1e-11
+	O.dt = 100
+	mpm.geostatic(**of)
+
+def moved():
+	before = mpm.arrays()
+	O.step()
+	after = mpm.arrays()
+	return [float(abs(after['pos'] - before['pos']).max()), float(abs(after['excessPressure'] - before['excessPressure']).max()), after['waterFlux'][:, 1].tolist()]
+
+ground(waterTable=1)
+points = mpm.arrays()
+s = points['excessPressure']
+stress = [points['pos'][:, 1].tolist(), s.tolist(), points['stress'][:, 1, 1].tolist(), points['stress'][:, 0, 0].tolist()]
+rest = moved()
+flows = []
+for layers in False, True:
+	ground(q=5e-8, layers=layers, h=.1, waterTable=1, infiltration=5e-8)
+	flows.append(moved())
+said = []
+for change in dict(waterTable=1, infiltration=1e-3), dict(waterTable='1'):
+	try: ground(**change)
+	except Exception as error: said.append(str(error))
+O.engines[0].flow.total = False
+try: mpm.geostatic(waterTable=1)
+except Exception as error: said.append(str(error))
+print(json.dumps([rest, stress, flows, said]))
+'''
+	).result
+	from scipy.integrate import quad
+	assert rest[0] < 1e-10 and rest[1] < 1e-4 and max(map(abs, rest[2])) < 1e-14
+	effective = lambda s: (1 + (3.35 * s / 9810)**2)**-0.5
+	for y, p, vertical, horizontal in list(zip(*stress))[::5]:
+		assert p == pytest.approx(9810 * (1 - y), abs=1e-6)
+		weight = 2e4 * (3 - y) - 0.4 * 9810 * quad(lambda z: 0.8 * (1 - effective(max(0, 9810 * (z - 1)))), y, 3)[0]
+		assert -vertical == pytest.approx(weight - (p if p > 0 else effective(-p) * p), rel=3e-3)
+		assert horizontal == pytest.approx(vertical / 4, rel=1e-9)
+	for motion, change, flux in flows:
+		assert motion < 5e-7 and change < 0.01 * 2e4, 'but for what cells of 0.1 m leave'
+		assert sum(flux) / len(flux) == pytest.approx(-5e-8, rel=0.1)
+	for text, words in zip(said, (('infiltration = 0.001', 'less'), ("waterTable = '1'", 'number'), ('waterTable = 1', 'total=True')), strict=True):
+		assert all(word in text for word in words), text

@@ -8,6 +8,7 @@ from yade import wrapper
 from ..base.messages import brief, isNumber, place
 from ..base.solver import noPoints, solverOf
 from ..points.data import pointsOf
+from ..points.water import conductivities
 
 _dry = 1e-3  # conductivity of dry soil over that of wet soil
 _transition = 0.5  # depth of the zone between the two, half of it above the free surface [cells]
@@ -42,9 +43,9 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 	points, materials, number = pointsOf(solver)
 	if not len(points['id']): raise ValueError(noPoints('seepage', solver))
 	_requirePlane(solver, unitWeight)
-	conductivities = _conductivities(points, materials, number)
+	found = conductivities('seepage', points, materials, number)
 	walls = [load for load in solver.loads if isinstance(load, wrapper.MpmBeam) and load.permittivity < math.inf]
-	body = _Body(solver.grid, points, conductivities / unitWeight, unitWeight, walls)
+	body = _Body(solver.grid, points, found / unitWeight, unitWeight, walls)
 	outlets = [_Outlet(body, f'levels[{i}]', *_pair(i, pair)) for i, pair in enumerate(levels)]
 	outlets += [_Outlet(body, f'faces[{i}]', _surface(f'faces[{i}]', face), -math.inf) for i, face in enumerate(faces)]
 	if not levels: raise ValueError('seepage: levels = () has no surface where water stands: give pairs of a surface and a height')
@@ -85,24 +86,6 @@ def _requirePlane(solver, unitWeight):
 	gravity = solver.gravity
 	if gravity[0] != 0 or gravity[1] > 0: raise ValueError(f'seepage: gravity = {place(gravity)} must act downwards, against y')
 	if not isNumber(unitWeight) or not 0 < unitWeight < math.inf: raise ValueError(f'seepage: unitWeight = {brief(unitWeight)} must be a number > 0 [N/m3]')
-
-
-def _conductivities(points, materials, number):
-	"""(N, 2) horizontal and vertical conductivity of each point, its own or that of its material."""
-	pairs = [material.conductivity if isinstance(material.conductivity, tuple) else (material.conductivity, math.nan) for material in materials]
-	found = np.array(pairs)[number]
-	for axis, name in enumerate(('conductivity', 'verticalConductivity')):
-		if name in points: found[:, axis] = points[name]
-	if 'conductivity' in points and 'verticalConductivity' not in points and not np.isnan(found[:, 1]).all():
-		label = materials[number[np.flatnonzero(~np.isnan(found[:, 1]))[0]]].label
-		raise ValueError(f'seepage: points of the material {label!r}, whose conductivity is a pair, have one of their own that is a single number: give them verticalConductivity, too')
-	found[:, 1] = np.where(np.isnan(found[:, 1]), found[:, 0], found[:, 1])
-	wrong = np.flatnonzero(~(found > 0).all(axis=1))
-	if not len(wrong): return found
-	material = materials[number[wrong[0]]]
-	raise ValueError(
-	        f'seepage: the material {material.label!r} has conductivity = {brief(material.conductivity)}; expected is a number > 0 [m/s], 1e-2 (gravel) to 1e-11 (clay), or a pair (horizontal, vertical)'
-	)
 
 
 def _pair(i, pair):

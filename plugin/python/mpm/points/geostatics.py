@@ -10,6 +10,7 @@ from ..base.messages import brief, isNumber, place
 from ..base.solver import noPoints, solverOf
 from ..library import engine as _library
 from .data import assign, parameter, pointsOf, table
+from .suction import Suction, requireTable
 from .water import pressuresOfEach
 
 _mostPressed = 6  # K0: the coefficient of passive earth pressure for a friction angle of 45 degrees
@@ -17,7 +18,7 @@ _isotropic = [getattr(wrapper, f'Mpm{name}Mat') for name in ('Elastic', 'VonMise
 _grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # classes whose hardening follows from the stresses they have borne
 
 
-def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
+def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=(), waterTable=None, infiltration=0):
 	"""Give the material points of an engine the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
 
 	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have, and with ``MpmImplicitEngine.water`` that of the water on the
@@ -45,6 +46,10 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 
 		heavier = mpm.geostatic(bodies=['concrete'])  # {'concrete': 58860.0}
 
+	With ``MpmFlow(total=True)`` the ground weighs what water it has, and its effective stress has the suction (Bishop), by the *excessPressure* of the points; *waterTable* gives them one::
+
+		mpm.geostatic(waterTable=2, infiltration=1e-8)
+
 	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step. Other shapes than level ground have no such stress: let
 	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
@@ -58,6 +63,8 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 		the materials, or a function of the depth below the surface [m], as ``lambda depth: 1 + 5 / depth`` of ground that has lost 5 m of the same
 		weight. None: as 1, and Cam clay keeps the preconsolidation pressure that its material or :func:`assign` has given.
 	:param bodies: labels of the materials of bodies in the ground; rows of points without any ground are layers of their own, or, above the ground, bear their weight by nothing
+	:param waterTable: height [m] where the pressure of the water is that of the air, for ``MpmFlow(total=True)``: gives all points the pressure of water that is at rest above and below it, or flows down
+	:param infiltration: steady flux through the ground [m/s], downwards; evaporates if < 0
 	:return: for each of *bodies* the weight [N] (in plane strain per metre of thickness) that is not in balance with the stress: that of its points less that of ground in
 		their place. It acts in the first step, so an analysis may begin with ``mpm.stages.replace`` in several steps instead where that is much.
 	:raises TypeError: *K0*, *OCR* or *surface* is no number, *bodies* no list of labels.
@@ -84,6 +91,11 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
 	pressure = rows.weightAbove(surface - top) * np.linalg.norm(solver.gravity)
+	requireTable(solver, waterTable, infiltration)
+	if solver.flow and solver.flow.total:
+		suction = Suction(solver, axis, up, height, half, rows)
+		if waterTable is not None: points['excessPressure'] = suction.pressures(points, materials, number, waterTable, infiltration)
+		pressure = pressure - suction.lightened(points, materials, number)
 	if solver.water: pressure = pressure + _ofWater(solver, points, rows, axis, up, surface - top)
 	lifted = np.flatnonzero((pressure <= 0) & ~rows.areAbove())
 	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
@@ -93,6 +105,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 	horizontal = np.where(isBody, rows.ofGround(horizontal), horizontal)
 	past[isBody], before[isBody] = math.nan, math.nan
 	_assign(points, _stress(pressure, horizontal, axis), past, _stress(*before.T, axis), depth, horizontal / np.where(pressure > 0, pressure, 1))
+	if waterTable is not None: assign(ids=points['id'], excessPressure=points['excessPressure'])
 	unbalanced = (density - rows.toPoints(rows.density)) * points['volume'] * np.linalg.norm(solver.gravity)
 	return {material.label: float(unbalanced[isBody & (number == i)].sum()) for i, material in enumerate(materials) if material.label in bodies}
 
@@ -318,7 +331,7 @@ class _Rows:
 
 	def ofGround(self, values):
 		"""Values (N,) of the points in the place of bodies: those of the ground in their row, or where there is none their own."""
-		ordered = self._ofSlices(values)
+		ordered = self.ofSlices(values)
 		own = ordered.copy()
 		ground = self._ofFirst(ordered, np.flatnonzero(np.diff(self.row, prepend=-1)))[self.row]
 		hasGround = np.bincount(self.row, self.isGround)[self.row] > 0
@@ -329,14 +342,14 @@ class _Rows:
 		"""Refuses pressures (N,) that differ along a row of ground: what is pressed more moves towards what is pressed less. Points of other sizes have their middle elsewhere: of them
 		the ratio is compared."""
 		ratio = horizontal / np.where(vertical > 0, vertical, 1)
-		size = self._ofSlices(np.bincount(self.point))
+		size = self.ofSlices(np.bincount(self.point))
 		for values, groups in (ratio, self.row), (horizontal, self.row * (size.max() + 1) + size):
-			ordered, ground = self._ofSlices(values), groups[self.isGround]
+			ordered, ground = self.ofSlices(values), groups[self.isGround]
 			low, high = np.full(groups.max() + 1, math.inf), np.full(groups.max() + 1, -math.inf)
 			np.minimum.at(low, ground, ordered[self.isGround])
 			np.maximum.at(high, ground, ordered[self.isGround])
 			differing = np.flatnonzero(high - low > 1e-6 * np.abs(values).max())
-			if differing.size: self._refuseUnequalStress(np.flatnonzero(self.isGround & (groups == differing[0])), self._ofSlices(horizontal))
+			if differing.size: self._refuseUnequalStress(np.flatnonzero(self.isGround & (groups == differing[0])), self.ofSlices(horizontal))
 
 	def _refuseUnequalStress(self, slices, horizontal):
 		raise ValueError(
@@ -351,13 +364,13 @@ class _Rows:
 
 	def areAlike(self, values):
 		"""True if values (N,) of the points are the same all along each row."""
-		ordered = self._ofSlices(values)
+		ordered = self.ofSlices(values)
 		first = ordered[np.flatnonzero(np.diff(self.row, prepend=-1))]
 		return (np.abs(ordered - first[self.row]) <= 1e-9 * np.abs(values).max()).all()
 
 	def above(self, values):
 		"""Integral of values (N,) of the points over the height, from the top to the middle of each point; of each row their mean."""
-		parts = np.bincount(self.row, self._ofSlices(values)) / np.bincount(self.row) * self.thickness
+		parts = np.bincount(self.row, self.ofSlices(values)) / np.bincount(self.row) * self.thickness
 		return self.toPoints(np.cumsum(parts) - parts / 2)
 
 	def weightAbove(self, cover):
@@ -368,7 +381,7 @@ class _Rows:
 	def toPoints(self, ofRows):
 		return self._means(ofRows[self.row])
 
-	def _ofSlices(self, values):
+	def ofSlices(self, values):
 		"""Values (N,) of the points at their slices, in the order of these."""
 		return values[self.point][self.order]
 

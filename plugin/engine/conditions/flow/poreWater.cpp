@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/flow/poreWater.hpp"
+#include "core/terms/water/unsaturated_point.hpp"
+#include "engine/points/buffers.hpp"
+
+namespace yade {
+
+py::tuple poreWaterForPython(const MpmFlow& flow, const MpmMaterial& material, const py::object& pressures)
+{
+	const ValueLock lock;
+	flow.requireAdmissible();
+	material.requireAdmissible();
+	const Column<Real>                    all(pressures, "pressures");
+	const std::optional<gimpm::Retention> curve = material.retention ? std::optional(material.retention->law(flow.unitWeight)) : std::nullopt;
+	gimpm::Pores                          pores;
+	pores.retention   = curve ? &*curve : nullptr;
+	const auto bishop = flow.bishop == "saturation" ? gimpm::Bishop::saturation : gimpm::Bishop::effectiveSaturation;
+	const auto column = [&](auto of) {
+		py::object  found { py::handle<>(PyByteArray_FromStringAndSize(nullptr, all.size() * sizeof(Real))) };
+		Real* const to = reinterpret_cast<Real*>(PyByteArray_AS_STRING(found.ptr()));
+		for (size_t i = 0; i < all.size(); ++i)
+			to[i] = of(all.data()[i]).value;
+		return found;
+	};
+	return py::make_tuple(
+	        column([&](Real p) { return gimpm::saturationOf(pores, p); }), column([&](Real p) { return gimpm::pressureOnGrains(pores, bishop, p); }),
+	        column([&](Real p) { return gimpm::permeabilityOf(pores, p); }));
+}
+
+} // namespace yade
