@@ -237,6 +237,21 @@ namespace {
 		}
 	}
 
+	/// Half as much rain as soil conducts when it is full, on silt so dry that it hardly conducts.
+	TEST(Unsaturated, DrySoilTakesInRainAtAnyCutOfTheCells)
+	{
+		const Retention  silt { Retention::Curve::vanGenuchten, Retention::Permeability::mualem, 1 / weight, 1.8, 0.15, 1 };
+		constexpr double conductivity = 5e-6, duration = 1800;
+		for (const double cut : { 0., 0.9, 0.7, 0.5, 0.3, 0.1, 0.02, 1e-3, 1e-6 }) {
+			Column column(10, cut, silt, conductivity, 0.42, -8 * weight);
+			column.drain(column.top(), Drain<2>::Kind::rain, 0.5 * conductivity);
+			for (int k = 0; k < 8; ++k) {
+				ASSERT_TRUE(column.step(duration).converged()) << cut;
+				ASSERT_NEAR(-column.water.drains[0].out / (0.5 * conductivity * duration * column.h), 1, 1e-9) << cut << " step " << k;
+			}
+		}
+	}
+
 	/// Water evaporates at the rate that is asked for until the surface is as dry as the air, and then less.
 	TEST(Unsaturated, WaterEvaporatesUntilTheSurfaceIsDry)
 	{

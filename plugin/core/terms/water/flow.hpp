@@ -65,11 +65,13 @@ private:
 		bool            isRain   = false;
 		double          rain     = 0; ///< the most that enters, or evaporates if negative [m3]
 
+		std::array<double, corners> felt {}; ///< weights of the pressure that decides what passes
+
 		double pressure(const Eigen::VectorXd& P) const
 		{
 			double sum = 0;
 			for (int n = 0; n < at.nodes; ++n)
-				sum += at.weight[n] * P[at.node[n]];
+				sum += felt[n] * P[at.node[n]];
 			return sum;
 		}
 	};

@@ -48,6 +48,34 @@ std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>
 	return positions;
 }
 
+/// Volume that is filled around each node.
+template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, const std::vector<PorePoint>& points)
+{
+	Eigen::VectorXd volume = Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size()));
+	for (const auto& patch : basis.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis, i, patch);
+			for (int n = 0; n < f.count; ++n)
+				if (patch.node[n] >= 0) volume[patch.node[n]] += f.value[n] * points[basis.order[i]].volume;
+		}
+	return volume;
+}
+
+/// Weights by which rain feels the pressure: those of nodes around which there is less than an eighth of a cell, beyond
+/// a surface that cuts off less than half of one, in proportion to that. Through a sliver of dry soil such a node
+/// drives water by a pressure that is not that of the ground, which would be taken for full.
+template <int Dim> std::array<double, 1 << Dim> weightsByVolume(const Attachment<Dim>& at, const Eigen::VectorXd& volume, double cell)
+{
+	constexpr double least   = 0.125;
+	auto             weights = at.weight;
+	double           sum     = 0;
+	for (int n = 0; n < at.nodes; ++n)
+		sum += weights[n] *= std::min(1., volume[at.node[n]] / (least * cell));
+	for (double& weight : weights)
+		weight /= sum;
+	return weights;
+}
+
 } // namespace
 
 template <int Dim> void Flow<Dim>::attachDrains(const StepContext<Dim>& step)
@@ -69,6 +97,7 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 	std::vector<Vec<Dim>> middles;
 	for (const auto& position : positions)
 		middles.push_back(position.at);
+	const auto filled = drain.kind == Drain<Dim>::Kind::rain ? filledVolumes(basis_, points_) : Eigen::VectorXd();
 	const auto within = Dim == 3 ? corners : attachPositions(middles, step, drain.name);
 	if (!within.obstacle.empty()) return within.obstacle;
 	for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -84,6 +113,8 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 			outlets_.push_back({ number, at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
 		else
 			outlets_.push_back({ number, at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
+		const bool isRain    = outlets_.back().isRain;
+		outlets_.back().felt = isRain ? weightsByVolume(at, filled, std::pow(h_, Dim) * aroundAxis(x[0], step.grid)) : at.weight;
 	}
 	return "";
 }
@@ -146,7 +177,7 @@ template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const Fie
 			sum.force[field][o.at.node[m]] += o.at.weight[m] * out;
 			sum.absoluteContributions[field][o.at.node[m]] += std::abs(o.at.weight[m]) * size;
 			for (int n = 0; n < o.at.nodes && sum.couplings; ++n)
-				sum.couplings->add({ field, o.at.node[m] }, { field, o.at.node[n] }, conductance * o.at.weight[m] * o.at.weight[n]);
+				sum.couplings->add({ field, o.at.node[m] }, { field, o.at.node[n] }, conductance * o.at.weight[m] * o.felt[n]);
 		}
 	}
 }
