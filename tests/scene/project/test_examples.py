@@ -626,6 +626,14 @@ def test_rain(yade):
 	assert (run.folder / 'out/rain/rain.png').stat().st_size > 20000
 
 
+def test_a_cut_under_rain(yade):
+	"""Rain takes its suction, and with it safety, on coarse cells."""
+	run = yade(root / 'examples' / 'rain' / 'cut.py', '--cellSize', 1, '--hours', 16, '--every', 8)
+	factors = [float(F) for F in re.findall(r'of rain F is (\S+), and', run.stdout)]
+	assert len(factors) == 3 and factors[0] > factors[1] > factors[2] > 1
+	assert (run.folder / 'out/cut/cut.png').stat().st_size > 20000
+
+
 def test_recharge(yade):
 	"""A water table against finite volumes and readings, in two dimensions."""
 	run = yade(root / 'examples' / 'rain' / 'recharge.py', '--cellSize', 0.1, '--longest', 480, '--volumes', 30)
