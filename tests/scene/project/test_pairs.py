@@ -2,7 +2,6 @@
 """Small scenes of pairs of features do not depend on how they are looked at, and what does not go together is refused by name: the short form of scripts/pairs."""
 import json
 import os
-import re
 import subprocess
 
 import pytest
@@ -46,12 +45,9 @@ def test_the_plan_has_every_pair_often_enough():
 
 
 def test_scenes_of_pairs_do_not_depend_on_how_they_are_looked_at(tmp_path, monkeypatch):
-	"""One is known: a Wall that presses on soil between grid lines, in explicit steps, gives velocities that differ by 1e-7 when both are shifted by whole cells."""
 	plan = Plan()
 	plan.until(1)
-	known = '36 3d mohrCoulomb explicit plate movedBody smoothWall movingWall friction absorbing: shifted: '
-	found = findings(tmp_path, [(chosen, seed) for seed, chosen in enumerate(plan.scenes)][::2], monkeypatch)
-	assert not [line for line in found if not line.startswith(known) or float(re.search(r'by (\S+) of', line)[1]) > 1e-6]
+	assert not findings(tmp_path, [(chosen, seed) for seed, chosen in enumerate(plan.scenes)][::2], monkeypatch)
 
 
 def test_scenes_that_once_did(tmp_path, monkeypatch):

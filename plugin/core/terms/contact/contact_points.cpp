@@ -15,6 +15,10 @@ namespace {
 /// that are sheared to and fro by a plate, friction 0.3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
 constexpr double slipSoftness = 20;
 
+/// Area fraction of soil that just does not reach a contact point, but for round-off: it must not decide which contact
+/// points have touched.
+constexpr double noArea = 1e-9;
+
 /// Distance of soil from an arc that it touches by chords of a cell's length, over the cell size, where the radius is
 /// that of a cell; less where it is larger.
 constexpr double offChord = 1. / 8;
@@ -186,7 +190,7 @@ private:
 		// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell
 		// from being there in full to not being there.
 		if (touched) made.areaFraction = std::max(made.areaFraction, record->areaFraction - 4 * record->travel / h_);
-		if (made.areaFraction <= 0) return;
+		if (made.areaFraction <= noArea) return;
 		// Pressed soil begins inside of the body: at its face even pressure would not balance even stress.
 		if (touched && record->gap < 0) made.soil = onBody + record->gap * normal;
 		if (!place(made, point, layer)) return;
