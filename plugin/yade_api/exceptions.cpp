@@ -69,13 +69,24 @@ static int raiseKept(void*)
 	return -1;
 }
 
-void raiseLater(const std::exception& error)
+// The step of O.run() that an error in an OpenMP region has ended last. Other engines in that region may fail later,
+// when the script has seen the error and goes on.
+static struct {
+	boost::weak_ptr<const Factorable> scene;
+	long                              iter = -1;
+
+	bool is(const Scene& other) const { return scene.lock().get() == &other && iter == other.iter; }
+} ended;
+
+void raiseLater(const std::exception& error, const Scene& scene)
 {
 	const std::lock_guard<std::mutex> lock(kept.guard);
 	ThreadRunner* const               runner = Singleton<Omega>::instance().simulationLoop.get();
-	if (kept.type || (runner && runner->workerThrew)) return; // one is enough
-	if (runner && runner->looping) keepFor(*runner, error);
-	else {
+	if (kept.type || ended.is(scene)) return; // one is enough
+	if (runner && runner->looping) {
+		ended.scene = scene.weak_from_this(), ended.iter = scene.iter;
+		keepFor(*runner, error);
+	} else {
 		kept.type = dynamic_cast<const std::invalid_argument*>(&error) ? PyExc_ValueError : PyExc_RuntimeError;
 		kept.text = error.what();
 		Py_AddPendingCall(&raiseKept, nullptr);

@@ -10,6 +10,8 @@
 
 namespace yade {
 
+class Scene;
+
 // Ends a step that is given up on request: whoever asked knows.
 struct Interrupted : std::runtime_error {
 	using runtime_error::runtime_error;
@@ -18,20 +20,20 @@ struct Interrupted : std::runtime_error {
 // In YADE's background thread: ends it, and has the script raise the exception, once. Does nothing outside that thread.
 void endRun(const std::exception&);
 
-// In an OpenMP region, which no exception may leave: ends the run, and has the script raise it as soon as Python
-// executes again.
-void raiseLater(const std::exception&);
+// In an OpenMP region in a step of a scene, which no exception may leave: ends the run, and has the script raise it as
+// soon as Python executes again. The first one of a step counts.
+void raiseLater(const std::exception&, const Scene&);
 
 // The body of an engine's action(): errors leave it as usual, and reach the script. YADE's ParallelEngine calls it in
 // an OpenMP region.
-template <class Step> void deliveringErrors(Step&& step)
+template <class Step> void deliveringErrors(const Scene& scene, Step&& step)
 {
 	try {
 		step();
 	} catch (const Interrupted&) {
 		throw;
 	} catch (const std::exception& error) {
-		if (omp_get_level() > 0) return raiseLater(error);
+		if (omp_get_level() > 0) return raiseLater(error, scene);
 		endRun(error);
 		throw;
 	}

@@ -120,7 +120,7 @@ public:
 	Real doubled() const { return 2 * number; }
 	void action() override
 	{
-		deliveringErrors([&] {
+		deliveringErrors(*scene, [&] {
 			requireAdmissible();
 			if (item) item->requireAdmissible();
 			if (scene->iter == failAt) throw std::runtime_error("asked to fail");

@@ -124,7 +124,7 @@ bool MpmImplicitEngine::isEndOfLoads() const
 
 void MpmImplicitEngine::action()
 {
-	deliveringErrors([&] {
+	deliveringErrors(*scene, [&] {
 		home = scene->weak_from_this();
 		requireCallable(getClassName());
 		Agreement agreement;

@@ -119,7 +119,7 @@ bool MpmVtkRecorder::areFields(const vector<string>& names)
 bool MpmVtkRecorder::isActivated()
 {
 	bool activated = false;
-	deliveringErrors([&] {
+	deliveringErrors(*scene, [&] {
 		const Analysis& engine = followed();
 		activated              = isDue(momentOf(engine)) || (lastIsMissing() && endsWithThisIteration(*scene) && standsBehind(engine));
 	});
@@ -128,7 +128,7 @@ bool MpmVtkRecorder::isActivated()
 
 void MpmVtkRecorder::action()
 {
-	deliveringErrors([&] { record(followed()); });
+	deliveringErrors(*scene, [&] { record(followed()); });
 }
 
 void MpmVtkRecorder::stepBegins(const Analysis& engine)

@@ -26,6 +26,30 @@ def test_a_failure_in_the_first_step_of_a_background_run_is_not_lost(yade):
 		assert 'went on' not in run.stdout
 
 
+def test_a_run_that_fails_twice_is_told_of_once(yade):
+	"""In a ParallelEngine the second engine fails when the script has seen the first error and goes on. Steps of other scenes tell of theirs."""
+	assert yade(
+	        '''
+import json, time
+from scenes import *
+def inParallel(*engines):
+	O.reset()
+	solver = slope()
+	O.engines, O.dt = [ParallelEngine([[solver, *engines, MpmImplicitEngine(grid=solver.grid, boundaries=solver.boundaries, verbosity=0)]])], 1
+def errors(run):
+	found = []
+	for call in run, lambda: time.sleep(0.4), lambda: 1:
+		try: call()
+		except Exception as error: found.append(type(error).__name__)
+	return found
+inParallel(PyRunner(command='time.sleep(0.2)', iterPeriod=1, initRun=True))
+ofRun = errors(lambda: O.run(3, wait=True))
+inParallel()
+print(json.dumps([ofRun, errors(O.step)]))
+'''
+	).result == [['RuntimeError'], ['ValueError']]
+
+
 def test_a_failed_step_leaves_the_scene_as_it_was_and_can_be_repeated(yade):
 	yade(
 	        failing + '''
