@@ -367,7 +367,7 @@ template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 	found["distance"]    = distance;
 	found["thin"]        = warningOfSmallFeatures(*system, cellSize);
 	for (size_t i = 0; i < owners.size() && !inTime; ++i)
-		if (owners[i].isFree && found["rolls"].empty()) found["rolls"] = warningOfRolling(*owners[i].body, system->loads[i].force, cellSize);
+		if (owners[i].isFree && found["rolls"].empty()) found["rolls"] = warningOfRolling<Dim>(*owners[i].body, *system, int(i), cellSize);
 	return found;
 }
 
