@@ -478,26 +478,29 @@ print(json.dumps(found))
 
 
 def test_a_cylinder_turns_in_stiff_ground_against_its_adhesion(yade):
-	"""The pressure that ground at rest bears with stays, whatever the staircase of its domains: 2 pi R^2 a per metre after a radian."""
-	torques = yade(scene + '''
+	"""The pressure that ground at rest bears with stays, whatever the staircase of its domains: 2 pi R^2 a per metre after a radian. In short steps the ground is dragged along a little at first, which is no way through the grid."""
+	found = yade(scene + '''
 radius, a, pressure, m, h = 0.5, 5e3, 5e4, 1.5, 0.125
-O.materials.append(MpmElasticMat(young=1e7, poisson=0.2, density=1, label='soil'))
-O.materials.append(FrictMat(label='rigid'))
-grid = MpmGrid(cellSize=h)
-O.bodies.append(mpm.fill(mpm.polygon([(-m, -m), (m, -m), (m, m), (-m, m)]) - pack.inSphere((0, 0, 0), radius), grid, 3, 'soil'))
-mpm.assign(stress=[-pressure * np.eye(3)] * len(O.bodies))
-cylinder = add(utils.sphere((0, 0, 0), radius, material='rigid', fixed=True))
-held = [MpmBoundary(fix='xy', **side) for side in (dict(max=(-m, inf, inf)), dict(min=(m, -inf, -inf)), dict(max=(inf, -m, inf)), dict(min=(-inf, m, -inf)))]
-contact = MpmContact(friction=atan(5), adhesion=a, stiffness=10)
-O.engines, O.dt = [MpmImplicitEngine(grid=grid, contacts=[contact], boundaries=held, newton=MpmNewton(minStep=1 / 64), verbosity=0)], 1
-O.run(2, wait=True)
-cylinder.state.angVel, torques = (0, 0, 0.05), []
-for step in range(20):
-	O.run(1, wait=True)
-	torques.append(-contact.torques[0][2] / (2 * np.pi * radius**2 * a))
-print(json.dumps(torques))
+def turned(angle):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e7, poisson=0.2, density=1, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(-m, -m), (m, -m), (m, m), (-m, m)]) - pack.inSphere((0, 0, 0), radius), grid, 3, 'soil'))
+	mpm.assign(stress=[-pressure * np.eye(3)] * len(O.bodies))
+	cylinder = add(utils.sphere((0, 0, 0), radius, material='rigid', fixed=True))
+	held = [MpmBoundary(fix='xy', **side) for side in (dict(max=(-m, inf, inf)), dict(min=(m, -inf, -inf)), dict(max=(inf, -m, inf)), dict(min=(-inf, m, -inf)))]
+	contact = MpmContact(friction=atan(5), adhesion=a, stiffness=10)
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, contacts=[contact], boundaries=held, newton=MpmNewton(minStep=1 / 64), verbosity=0)], 1
+	O.run(2, wait=True)
+	cylinder.state.angVel, torques = (0, 0, angle), []
+	for step in range(20):
+		O.run(1, wait=True)
+		torques.append(-contact.torques[0][2] / (2 * np.pi * radius**2 * a))
+	return torques
+print(json.dumps([turned(0.05), turned(0.00625)]))
 ''').result
-	assert max(abs(torque - 1) for torque in torques[8:]) < 0.02, torques
+	assert max(abs(torque - 1) for torques in found for torque in torques[10:]) < 0.02, found
 
 
 def test_half_a_model_bears_half_of_the_whole(yade):

@@ -171,7 +171,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	for (const auto& point : found_.points) {
 		const Approach<Dim> near = kinematics_.approach(point, d);
 		const Vec<Dim>      u = point.distribution.displacement(d), along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
-		const double        travel = along.norm(), creep = u.norm() > leastMotion * travel ? travel : 0;
+		const double        travel = along.norm(), creep = u.norm() > leastMotion * travel ? std::min(travel, u.norm()) : 0;
 		records.push_back({ point.body, point.number, near.at.gap, false, false, 0, point.areaFraction, travel, creep, Vec<Dim>::Zero(), near.at.normal,
 		                    point.soil + u });
 	}
