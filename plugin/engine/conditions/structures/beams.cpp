@@ -296,25 +296,33 @@ void Beams::reach(const StepOutcome<2>& step)
 }
 
 namespace {
-	// Share of the force of the soil on a side of a beam that its vertex at a tip in the soil bears alone, if that
-	// is much more than its share of a pressure that grows linearly; else 0. A vertex that is held bears what it
-	// must.
+	// Part of the force of the soil on a side of a beam that its vertex at a tip bears alone, if it is larger than of
+	// a pressure that grows linearly; else 0. Where soil is much deeper on the other side, as in a pit, the tip has
+	// little beside it.
+	Real shareOfTip(const Beam& beam, int end, int side)
+	{
+		constexpr Real much = 0.25, overLinear = 1.4;
+		constexpr int  fewest  = 4;
+		const auto     pressed = [&](int of) {
+                        const auto& forces = beam.sides[of].normalForce;
+                        return int(std::count_if(forces.begin(), forces.end(), [](Real f) { return f > 0; }));
+		};
+		const auto& forces = beam.sides[side].normalForce;
+		const int   count  = pressed(side);
+		const Real  sum    = std::accumulate(forces.begin(), forces.end(), Real(0));
+		if (count < fewest || !(sum > 0)) return 0;
+		const Real share = (end == 0 ? forces.front() : forces.back()) / sum;
+		const Real limit = 2 * count <= pressed(1 - side) ? overLinear / (count - 1) : std::max(much, overLinear / count);
+		return share > limit ? share : 0;
+	}
+
+	// The same of both sides, of a tip in the soil. A vertex that is held bears what it must.
 	Real shareOfTip(const Beam& beam, int end)
 	{
-		constexpr Real      much = 0.25, overLinear = 1.4;
-		constexpr int       fewest = 4;
-		const auto&         held   = end == 0 ? beam.fixedHead : beam.fixedFoot;
-		const gimpm::Vec<2> along  = beam.outwardsAt(end);
+		const auto&         held  = end == 0 ? beam.fixedHead : beam.fixedFoot;
+		const gimpm::Vec<2> along = beam.outwardsAt(end);
 		if (beam.layer == 0 || !beam.isTip[end] || held[std::abs(along[0]) > std::abs(along[1]) ? 1 : 0]) return 0;
-		for (const auto& side : beam.sides) {
-			const auto& forces  = side.normalForce;
-			const auto  pressed = std::count_if(forces.begin(), forces.end(), [](Real f) { return f > 0; });
-			const Real  sum     = std::accumulate(forces.begin(), forces.end(), Real(0));
-			if (pressed < fewest || !(sum > 0)) continue;
-			const Real share = (end == 0 ? forces.front() : forces.back()) / sum;
-			if (share > std::max(much, overLinear / Real(pressed))) return share;
-		}
-		return 0;
+		return std::max(shareOfTip(beam, end, 0), shareOfTip(beam, end, 1));
 	}
 }
 
@@ -334,8 +342,9 @@ std::map<string, string> Beams::warnings() const
 				found["tip of " + beam.name] = gimpm::sentence(
 				        "the vertex of ", beam.name, " at (", (end == 0 ? beam.positions.front() : beam.positions.back()).transpose(),
 				        ") bears ", std::lround(100 * share),
-				        " % of the force of the soil on one of its sides. Soil does not slip past a tip within its cell, so that a wall may stand on "
-				        "its tip where limit equilibrium says that it falls: compare with a hand calculation before relying on it.");
+				        " % of the force of the soil on one of its sides. Soil does not slip past a tip within its cell and resists as if the wall were longer, "
+				        "by up to two cells, so that it may stand on its tip where limit equilibrium says that it falls: compare with a hand calculation before "
+				        "relying on it.");
 		if (i < crossed.size() && crossed[i] > 0)
 			found["through " + beam.name] = gimpm::sentence(
 			        crossed[i], crossed[i] == 1 ? " material point has" : " material points have", " gone through ", beam.name,
