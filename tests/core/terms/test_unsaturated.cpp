@@ -242,9 +242,11 @@ namespace {
 	{
 		const Retention  silt { Retention::Curve::vanGenuchten, Retention::Permeability::mualem, 1 / weight, 1.8, 0.15, 1 };
 		constexpr double conductivity = 5e-6, duration = 1800;
-		for (const double cut : { 0., 0.9, 0.7, 0.5, 0.3, 0.1, 0.02, 1e-3, 1e-6 }) {
-			Column column(10, cut, silt, conductivity, 0.42, -8 * weight);
-			column.drain(column.top(), Drain<2>::Kind::rain, 0.5 * conductivity);
+		for (const auto& [cut, outside] :
+		     { std::pair(0., 0.), { 0.9, 0 }, { 0.7, 0 }, { 0.5, 0 }, { 0.3, 0 }, { 0.1, 0 }, { 0.02, 0 }, { 1e-3, 0 }, { 1e-6, 0 }, { 0, 0.2 } }) {
+			Column       column(10, cut, silt, conductivity, 0.42, -8 * weight);
+			const double top = 1 + outside * column.h;
+			column.drain(line({ column.h, top }, { 0, top }), Drain<2>::Kind::rain, 0.5 * conductivity);
 			for (int k = 0; k < 8; ++k) {
 				ASSERT_TRUE(column.step(duration).converged()) << cut;
 				ASSERT_NEAR(-column.water.drains[0].out / (0.5 * conductivity * duration * column.h), 1, 1e-9) << cut << " step " << k;

@@ -63,14 +63,15 @@ template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, c
 
 /// Weights by which rain feels the pressure: those of nodes around which there is less than an eighth of a cell, beyond
 /// a surface that cuts off less than half of one, in proportion to that. Through a sliver of dry soil such a node
-/// drives water by a pressure that is not that of the ground, which would be taken for full.
+/// drives water by a pressure that is not that of the ground, which would be taken for full; so does one that is gone
+/// on from dry nodes to a surface a little outside.
 template <int Dim> std::array<double, 1 << Dim> weightsByVolume(const Attachment<Dim>& at, const Eigen::VectorXd& volume, double cell)
 {
 	constexpr double least   = 0.125;
 	auto             weights = at.weight;
 	double           sum     = 0;
 	for (int n = 0; n < at.nodes; ++n)
-		sum += weights[n] *= std::min(1., volume[at.node[n]] / (least * cell));
+		sum += weights[n] = std::max(0., weights[n]) * std::min(1., volume[at.node[n]] / (least * cell));
 	for (double& weight : weights)
 		weight /= sum;
 	return weights;
