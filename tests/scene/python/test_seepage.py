@@ -117,6 +117,7 @@ for origin in 0, .1:  # a body that is under water altogether, in cells of .3
 	slopes = (flow.pressure((1., .6, 0)) - flow.pressure((2., .6, 0))) * (b - a) / 9810
 solver = O.engines[0]
 solver.water = [MpmWater(pressure=flow.pressure)]
+solver.boundaries = [MpmBoundary(max=(inf, origin - .3, inf), fix='xy')]  # on the line below the body
 O.dt = .25
 O.step()
 middle = O.bodies[len(O.bodies) // 2].state

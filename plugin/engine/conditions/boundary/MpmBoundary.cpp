@@ -120,21 +120,25 @@ namespace {
 	}
 
 	// A face of the box where the soil ends and no line of the grid is: its nodes constrain the soil through cells
-	// that are filled in part.
+	// that are filled in part. Doubt about a little of that; more is refused, as the soil there would be half as
+	// stiff and less.
 	string faceBetweenLines(const MpmBoundary& box, const vector<MaterialPoint>& points, const MpmGrid& grid, const string& name, int axis, int sign)
 	{
-		constexpr Real little = 1e-6; // cells
+		constexpr Real little = 1e-6, most = 0.25; // cells
 		const Real     face = sign > 0 ? box.max[axis] : box.min[axis], place = sign * (face - grid.origin[axis]) / grid.cellSize;
 		const Real     line = std::floor(place + little);
 		if (!std::isfinite(face) || place - line <= little) return "";
-		const Real edge = edgeOfSoil(box, points, grid, axis, sign);
-		if (edge <= line + little || edge > place + little) return "";
-		return gimpm::sentence(
+		const Real edge = edgeOfSoil(box, points, grid, axis, sign), away = edge - line;
+		if (away <= little || edge > place + little) return "";
+		const string text = gimpm::sentence(
 		        name, sign > 0 ? ".max[" : ".min[", axis, "] = ", face,
 		        " m, where the soil ends, is on no line of the grid: the soil is constrained at the next one, ",
-		        grid.origin[axis] + sign * line * grid.cellSize, " m, ", edge - line,
-		        " cells away, through cells that are filled in part, and is too soft there. Let MpmGrid.origin and cellSize put a line on it, or give "
-		        "MpmBoundary(surface=...).");
+		        grid.origin[axis] + sign * line * grid.cellSize, " m, ", away,
+		        " cells away, through cells that are filled in part, and is too soft there");
+		if (away <= most + little) return text + ". Let MpmGrid.origin and cellSize put a line on it, or give MpmBoundary(surface=...).";
+		throw std::invalid_argument(gimpm::sentence(
+		        text, "; at most ", most, " cells are admitted. Let MpmGrid.origin and cellSize put a line on it, as by origin[", axis, "] = ", face,
+		        ", or give MpmBoundary(surface=...)."));
 	}
 }
 
