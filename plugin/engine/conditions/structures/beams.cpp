@@ -296,9 +296,8 @@ void Beams::reach(const StepOutcome<2>& step)
 }
 
 namespace {
-	// Part of the force of the soil on a side of a beam that its vertex at a tip bears alone, if it is larger than of
-	// a pressure that grows linearly; else 0. Where soil is much deeper on the other side, as in a pit, the tip has
-	// little beside it.
+	// Part of the force of the soil on a side of a beam that its vertex at a tip bears alone, if it is larger than
+	// that of a linear pressure; else 0. Stricter where the soil is much deeper on the other side, as in a pit.
 	Real shareOfTip(const Beam& beam, int end, int side)
 	{
 		constexpr Real much = 0.25, overLinear = 1.4;
