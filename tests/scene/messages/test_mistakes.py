@@ -140,7 +140,7 @@ def test_warnings(yade):
 scene(gravity=(0, 1, 0))
 O.step()
 O.reset()
-scene(grid=MpmGrid(cellSize=20))
+scene(grid=MpmGrid(cellSize=20), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')])
 O.step()
 O.reset()
 scene(gravity=(0, -1, 0))
