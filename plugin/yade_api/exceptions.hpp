@@ -20,8 +20,8 @@ struct Interrupted : std::runtime_error {
 // In YADE's background thread: ends it, and has the script raise the exception, once. Does nothing outside that thread.
 void endRun(const std::exception&);
 
-// In an OpenMP region in a step of a scene, which no exception may leave: ends the run, and has the script raise it as
-// soon as Python executes again. The first one of a step counts.
+// Ends the run and has the script raise the error as soon as Python executes again: in an OpenMP region in a step of a
+// scene, which no exception may leave. The first one of a step counts.
 void raiseLater(const std::exception&, const Scene&);
 
 // The body of an engine's action(): errors leave it as usual, and reach the script. YADE's ParallelEngine calls it in

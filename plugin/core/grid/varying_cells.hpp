@@ -26,7 +26,7 @@ template <int Dim> class CellErrors {
 public:
 	CellErrors(const std::vector<DeformedVolume<Dim>>&, const Grid<Dim>&);
 
-	/// As few cells as have to be left out for the error of the others to be this part of the deformation.
+	/// The fewest cells without which the error of the others is this part of the deformation at most.
 	std::vector<Index<Dim>> largest(double part) const;
 
 	/// Error of the cells for which f(cell) is false, as a part of the deformation.

@@ -27,7 +27,7 @@ struct Pores {
 	};
 	Conductivity at(double J) const;
 
-	/// In the direction where it is largest, over the horizontal one.
+	/// Largest conductivity of all directions over the horizontal one.
 	double largestRatio() const { return verticalRatio > 1 ? verticalRatio : 1; }
 
 	/// True if grains, which keep their volume, leave room for water.

@@ -3,7 +3,7 @@
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/materials/own_materials.hpp"
 #include "engine/points/energies.hpp"
-#include "engine/points/stretched.hpp"
+#include "engine/points/fitted_domain.hpp"
 #include "engine/points/unite_halves.hpp"
 #include <algorithm>
 
@@ -53,7 +53,7 @@ namespace {
 		{
 		}
 
-		// As often as halves have been split again.
+		// Merges in rounds: a whole may be a half of another one.
 		void mergeAll()
 		{
 			while (mergePairs(pairs())) { }
@@ -78,14 +78,11 @@ namespace {
 			return all;
 		}
 
-		// True if cells of a size have two points along each axis that stand for so much.
-		static bool areTwo(Real volume0, Real size) { return volume0 <= gimpm::Vec<Dim>::Constant(1.01 * size / 2).prod(); }
-
 		// True if two like this are not too large for the cell.
 		bool isInLargeCell(const MaterialPoint& half) const
 		{
 			const Real size = 2 * gimpm::largestHalf<Dim>(grid, half.state->pos.template head<Dim>());
-			return areTwo(2 * (2 * half.shape->halfSize0.template head<Dim>()).prod(), size);
+			return holdsTwo<Dim>(size, 2 * initialSection<Dim>(half.shape->halfSize0));
 		}
 
 		// True if the whole is not too large for the cells that it, and half of it around, touches.
@@ -93,7 +90,7 @@ namespace {
 		{
 			const Vector3r half = stretched<Dim>(whole.halfSize0, whole.defGrad, domains);
 			const Real     size = grid.size(gimpm::levelTouched<Dim>(grid, whole.centre.template head<Dim>(), 2 * half.head<Dim>()));
-			return areTwo((2 * whole.halfSize0.template head<Dim>()).prod(), size) && half.head<Dim>().maxCoeff() <= size / 2;
+			return holdsTwo<Dim>(size, initialSection<Dim>(whole.halfSize0)) && half.head<Dim>().maxCoeff() <= size / 2;
 		}
 
 		bool mergePairs(const vector<Pair>& all)
@@ -103,19 +100,11 @@ namespace {
 				if (energy > left) break;
 				left -= energy, lost += energy;
 				whole.assignTo(points[lower], points[upper]);
-				setDomain(points[lower]);
+				fitDomain(points[lower], grid, domains);
 				family.erase(upper);
 				erased.push_back(points[upper].id);
 			}
 			return erased.size() > before;
-		}
-
-		void setDomain(const MaterialPoint& point) const
-		{
-			const Vector3r half                        = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, domains);
-			const Real     most                        = gimpm::largestHalf<Dim>(grid, point.state->pos.template head<Dim>());
-			point.shape->halfSize.template head<Dim>() = half.head<Dim>().cwiseMin(most);
-			if (grid.axisymmetric) point.shape->halfSize[2] = half[2];
 		}
 
 		const vector<MaterialPoint>& points;

@@ -6,9 +6,9 @@
 
 namespace yade {
 
-// Before a step, of which the cells are known. Halves that are alike become one if cells have two points along each
-// axis all the same, those within reach of the whole too. The upper bodies are erased from the scene and from the list.
-// In one step this takes no more than 1e-4 of the energy that is stored; returns what it takes [J].
+// Merges halves before a step, of which the cells are known. Those that are alike become one if cells have two points
+// along each axis all the same, those within reach of the whole too. The upper bodies are erased from the scene and
+// from the list. In one step this takes no more than 1e-4 of the energy that is stored; returns what it takes [J].
 Real mergeHalves(const Analysis&, Scene&, vector<MaterialPoint>&);
 
 } // namespace yade

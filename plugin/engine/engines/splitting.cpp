@@ -4,8 +4,8 @@
 #include "engine/analysis/exchange.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/parallel/pieces.hpp"
+#include "engine/points/fitted_domain.hpp"
 #include "engine/points/split_point.hpp"
-#include "engine/points/stretched.hpp"
 #include "yade_api/bodies.hpp"
 
 namespace yade {
@@ -15,6 +15,13 @@ namespace {
 		int        left      = 0;  // points whose domain is kept at half a cell
 		Body::id_t exhausted = -1; // the first of them that has been split as often as is admitted
 	};
+
+	// True if cells that are halved are to have as many points as before. Beside edges of bodies larger domains
+	// give a resistance that is nearer to the exact one.
+	bool arePointsOfCells(const MpmGrid& grid)
+	{
+		return std::any_of(grid.adaptation.begin(), grid.adaptation.end(), [](const auto& rule) { return rule->where == "error"; });
+	}
 
 	template <int Dim> class Outgrown {
 	public:
@@ -36,14 +43,6 @@ namespace {
 		}
 
 	private:
-		// Half lengths of the domain as the step would have left them without a limit.
-		Vector3r grown(const MaterialPoint& point) const
-		{
-			Vector3r size = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, job.model.domains);
-			if (isRing()) size[0] = std::min(size[0], point.state->pos[0]);
-			return size;
-		}
-
 		bool splitOnce(size_t p)
 		{
 			const MaterialPoint& point = points[p];
@@ -53,7 +52,7 @@ namespace {
 				if (axis >= 0) return split(p, axis);
 			}
 			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit * (1 - gimpm::overlapTolerance)) return false;
-			const Vector3r size = grown(point);
+			const Vector3r size = grownDomain(point, job.model.grid, job.model.domains);
 			if (size.template head<Dim>().maxCoeff() <= margin * limit) return false;
 			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size) : -1;
 			if (axis >= 0) return split(p, axis);
@@ -81,9 +80,9 @@ namespace {
 		bool isTooFew(const MaterialPoint& point, Real limit) const
 		{
 			if (!followsCells) return false;
-			const Real volume = point.shape->halfSize0.template head<Dim>().prod();
-			const auto most   = [](Real half) { return gimpm::Vec<Dim>::Constant(margin * half / 2).prod(); };
-			return volume > most(limit) && volume > most(gimpm::largestHalf<Dim>(job.model.grid, point.state->pos.template head<Dim>()));
+			const Real section = initialSection<Dim>(point.shape->halfSize0);
+			const auto cell    = [&] { return 2 * gimpm::largestHalf<Dim>(job.model.grid, point.state->pos.template head<Dim>()); };
+			return !holdsTwo<Dim>(2 * limit, section) && !holdsTwo<Dim>(cell(), section);
 		}
 
 		// The longest edge across which the point can be split; none: -1.
@@ -219,10 +218,7 @@ namespace {
 		{
 			for (int a = 0; a < Dim; ++a)
 				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
-			const Vector3r size                       = grown(half);
-			const Real     limit                      = gimpm::largestHalf<Dim>(job.model.grid, half.state->pos.template head<Dim>());
-			half.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
-			if (isRing()) half.shape->halfSize[2] = half.shape->halfSize0[2] * half.state->defGrad(2, 2);
+			fitDomain(half, job.model.grid, job.model.domains);
 			half.shape->radius *= std::pow(0.5, 1. / Dim);
 		}
 
@@ -264,15 +260,6 @@ namespace {
 
 		vector<std::pair<shared_ptr<Body>, HalvedDomain>> halves; // the upper ones, which have no ids yet
 	};
-}
-
-namespace {
-	// True if cells that are halved are to have as many points as before. Beside edges of bodies larger domains
-	// give a resistance that is nearer to the exact one.
-	bool arePointsOfCells(const MpmGrid& grid)
-	{
-		return std::any_of(grid.adaptation.begin(), grid.adaptation.end(), [](const auto& rule) { return rule->where == "error"; });
-	}
 }
 
 template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<MaterialPoint>& points, Job<Dim>& job)

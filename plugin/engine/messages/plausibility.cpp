@@ -160,7 +160,7 @@ template <int Dim> bool Plausibility::isNew(const gimpm::PointCloud<Dim>& cloud)
 template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) { known = fingerprint(cloud); }
 
 namespace {
-	// As much of it as is looked at.
+	// Columns of the cloud that are looked at.
 	template <int Dim> gimpm::PointCloud<Dim> cloudOf(const vector<MaterialPoint>& points)
 	{
 		gimpm::PointCloud<Dim> cloud;

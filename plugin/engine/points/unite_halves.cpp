@@ -13,11 +13,11 @@ namespace {
 
 	template <class T> T mean(const T& lower, const T& upper, Real share) { return (1 - share) * lower + share * upper; }
 
-	bool areOfOne(const MaterialPoint& lower, const MaterialPoint& upper)
+	bool areOfOne(const MaterialPoint& lower, const MaterialPoint& upper, int dim)
 	{
 		const MpmState &l = *lower.state, &u = *upper.state;
 		return lower.material == upper.material && l.parameters == u.parameters && l.body == u.body && l.splits == u.splits
-		        && lower.shape->halfSize0.head<2>().isApprox(upper.shape->halfSize0.head<2>(), 1e-9);
+		        && lower.shape->halfSize0.head(dim).isApprox(upper.shape->halfSize0.head(dim), 1e-9);
 	}
 
 	bool areAlike(const vector<Real>& lower, const vector<Real>& upper)
@@ -27,7 +27,15 @@ namespace {
 		return true;
 	}
 
-	// Scaled in the plane, or in space, to a determinant.
+	// Initial axis across which two halves of a point lie beside each other.
+	int axisBetween(const MaterialPoint& lower, const MaterialPoint& upper)
+	{
+		int axis = 0;
+		(upper.state->refPos - lower.state->refPos).cwiseQuotient(lower.shape->halfSize0).cwiseAbs().maxCoeff(&axis);
+		return axis;
+	}
+
+	// Gradient that is scaled in the plane, or in space, to a determinant.
 	Matrix3r withDeterminant(Matrix3r F, Real J, int dim)
 	{
 		if (dim == 3) return F * std::cbrt(J / F.determinant());
@@ -36,17 +44,10 @@ namespace {
 	}
 }
 
-int axisBetween(const MaterialPoint& lower, const MaterialPoint& upper)
-{
-	int axis = 0;
-	(upper.state->refPos - lower.state->refPos).cwiseQuotient(lower.shape->halfSize0).cwiseAbs().maxCoeff(&axis);
-	return axis;
-}
-
 std::optional<UnitedHalves> UnitedHalves::of(const MaterialPoint& lower, const MaterialPoint& upper, const gimpm::Material& material, int dim)
 {
 	const MpmState &l = *lower.state, &u = *upper.state;
-	if (!areOfOne(lower, upper) || (l.defGrad - u.defGrad).norm() > mostDifference) return std::nullopt;
+	if (!areOfOne(lower, upper, dim) || (l.defGrad - u.defGrad).norm() > mostDifference) return std::nullopt;
 	const auto lowerInternals = lower.internalsOf(material.law), upperInternals = upper.internalsOf(material.law);
 	if (!areAlike(lowerInternals, upperInternals)) return std::nullopt;
 	UnitedHalves whole;

@@ -7,9 +7,6 @@
 
 namespace yade {
 
-// Initial axis across which two halves of a point lie beside each other.
-int axisBetween(const MaterialPoint& lower, const MaterialPoint& upper);
-
 // The inverse of halve(), after both have deformed: mass, volume, momentum and centre are kept; deformation gradient,
 // elastic strain and history are means by initial volume, the first one scaled to the volume.
 class UnitedHalves {

@@ -11,7 +11,7 @@ public:
 	/// Curves of points that follow each other; null: the pores are always full.
 	template <int Dim> CurvesOfNodes(const std::vector<PorePoint>&, const CloudBasis<Dim>&);
 
-	/// By curve and node; of nodes where a curve is not needed, and of full pores, it is one.
+	/// Values by curve and node; one for nodes where a curve is not needed, and for full pores.
 	using Wetness = std::vector<std::vector<NodeWetness>>;
 	Wetness at(const Eigen::VectorXd& pressures) const;
 

@@ -178,8 +178,8 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	weighFaces(softness, permeability, step);
 }
 
-/// By the compliances of the cells and, where pores need not be full, their relative permeabilities. A face has what
-/// the less permeable of its two cells has: the pressure may bend where soils meet.
+/// Stiffness of the faces by the compliances of the cells and, where pores need not be full, their relative
+/// permeabilities. A face has what the less permeable of its two cells has: the pressure may bend where soils meet.
 template <int Dim> void Flow<Dim>::weighFaces(const std::vector<double>& softness, const std::vector<double>& permeability, const StepContext<Dim>& step)
 {
 	for (auto& face : faces_) {

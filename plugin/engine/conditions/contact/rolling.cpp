@@ -20,7 +20,7 @@ namespace {
 		return centre + corner;
 	}
 
-	// From its position to the soil, against the force on it [m].
+	// Distance from its position to the soil, against the force on it [m].
 	template <int Dim> Real radiusOf(const gimpm::ContactSystem<Dim>& system, int owner, const gimpm::Vec<Dim>& direction)
 	{
 		Real radius = 0;

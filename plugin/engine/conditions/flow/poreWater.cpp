@@ -5,6 +5,8 @@
 
 namespace yade {
 
+gimpm::Bishop bishopOf(const MpmFlow& flow) { return flow.bishop == "saturation" ? gimpm::Bishop::saturation : gimpm::Bishop::effectiveSaturation; }
+
 py::tuple poreWaterForPython(const MpmFlow& flow, const MpmMaterial& material, const py::object& pressures)
 {
 	const ValueLock lock;
@@ -14,7 +16,7 @@ py::tuple poreWaterForPython(const MpmFlow& flow, const MpmMaterial& material, c
 	const std::optional<gimpm::Retention> curve = material.retention ? std::optional(material.retention->law(flow.unitWeight)) : std::nullopt;
 	gimpm::Pores                          pores;
 	pores.retention   = curve ? &*curve : nullptr;
-	const auto bishop = flow.bishop == "saturation" ? gimpm::Bishop::saturation : gimpm::Bishop::effectiveSaturation;
+	const auto bishop = bishopOf(flow);
 	const auto column = [&](auto of) {
 		py::object  found { py::handle<>(PyByteArray_FromStringAndSize(nullptr, all.size() * sizeof(Real))) };
 		Real* const to = reinterpret_cast<Real*>(PyByteArray_AS_STRING(found.ptr()));

@@ -3,6 +3,7 @@
 #include "core/terms/water/frozen_pressures.hpp"
 #include "core/terms/water/unsaturated_point.hpp"
 #include "engine/conditions/flow/flows.hpp"
+#include "engine/conditions/flow/poreWater.hpp"
 
 namespace yade {
 
@@ -17,7 +18,7 @@ template <int Dim> void Flows<Dim>::beginWhole(const Surroundings<Dim>& around)
 	const Vector3r& gravity = around.analysis.gravity;
 	whole.weight.setZero();
 	if (!gravity.isZero(0)) whole.weight = from->unitWeight * gravity.normalized().template head<Dim>();
-	if (from->bishop == "saturation") whole.bishop = gimpm::Bishop::saturation;
+	whole.bishop = bishopOf(*from);
 }
 
 // Null: the pores of the point are always full.
