@@ -25,7 +25,7 @@ defaults = dict(
         linearSolver='auto',
         elastic=False,
         fBar=False,
-        recorder=False, # writes all material points after every step
+        recorder=False, # writes all material points after every step, or these fields of them
         arrays=False, # reads all material points after every step
         distributed=False, # several processes divide the points
         added=False, # added by mpm.add
@@ -71,7 +71,7 @@ def slope():
 	engines = [solver]
 	O.dt = h / 40
 	with tempfile.TemporaryDirectory() as folder:
-		if setting.recorder: engines.append(MpmVtkRecorder(fileName=os.path.join(folder, 'slope-'), iterPeriod=1, recorders=['points']))
+		if setting.recorder: engines.append(MpmVtkRecorder(fileName=os.path.join(folder, 'slope-'), iterPeriod=1, recorders=['points'], fields=['all'] if setting.recorder is True else setting.recorder))
 		O.engines = engines + [PyRunner(iterPeriod=1, initRun=True, command='afterStep()')]
 		begin = ended = time.perf_counter()
 		if loads:

@@ -16,4 +16,10 @@ void endBackgroundRun()
 	const std::lock_guard<std::mutex> untilItHasEnded(runner->runMutex);
 }
 
+bool isRunGoingOn()
+{
+	const shared_ptr<ThreadRunner> runner = Singleton<Omega>::instance().simulationLoop;
+	return runner && runner->looping;
+}
+
 } // namespace yade

@@ -8,10 +8,12 @@ namespace yade {
 namespace {
 	template <int Dim> std::map<Real, int> countCells(const MpmGrid& grid, const vector<MaterialPoint>& points)
 	{
-		const auto           lattice = grid.lattice<Dim>();
+		const auto lattice = grid.lattice<Dim>();
+		const auto cells   = cellsOf(centresOnGrid(points, lattice), lattice);
+		if (!lattice.refinement && !cells.empty()) return { { lattice.cellSize, int(cells.size()) } };
 		std::set<gimpm::Key> leaves;
-		for (const gimpm::Key cell : cellsOf(centresOnGrid(points, lattice), lattice))
-			leaves.insert(lattice.refinement ? lattice.refinement->leafOf(cell) : cell);
+		for (const gimpm::Key cell : cells)
+			leaves.insert(lattice.refinement->leafOf(cell));
 		std::map<Real, int> counts;
 		for (const gimpm::Key leaf : leaves)
 			++counts[lattice.size(gimpm::Grid<Dim>::level(leaf))];

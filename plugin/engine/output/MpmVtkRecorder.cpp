@@ -7,6 +7,7 @@
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/points/parallel.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <vtkCellData.h>
 #include <vtkUnstructuredGrid.h>
 
 namespace yade {
@@ -43,6 +43,9 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
+	// Whoever looks for files afterwards finds them complete.
+	bool isLastOfRun(const Scene& scene) { return !isRunGoingOn() || endsWithThisIteration(scene); }
+
 	VtkCells pointData(const Scene& scene, const Analysis& solver, const Columns& known, const vector<string>& fields, int sectors)
 	{
 		if (sectors > 0 && !solver.grid->axisymmetric)
@@ -50,15 +53,19 @@ namespace {
 			        "MpmVtkRecorder.sectors = " + std::to_string(sectors) + ": only what is axisymmetric (MpmGrid.axisymmetric) can be revolved.");
 		const ValueLock lock;
 		const auto      points = materialPoints(scene, solver.mask);
-		for (const MaterialPoint& point : points)
-			point.requireAdmissible(solver.grid->dim, solver.grid->axisymmetric);
-		const auto domains = pointDomains(
-		        points, scene, *solver.grid, isDivided(solver) ? known : fieldsOf(points),
-		        solver.basis == "gimp" ? std::optional(solver.domainRule()) : std::nullopt, sectors);
-		if (!contains(fields, "all"))
-			for (const string& name : pointFields())
-				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
-		return domains;
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end; ++p)
+				points[p].requireAdmissible(solver.grid->dim, solver.grid->axisymmetric);
+		});
+		auto       columns = isDivided(solver) ? known : fieldsOf(points);
+		const bool areAll  = contains(fields, "all");
+		if (!areAll) {
+			const auto isLeftOut = [&](const PointColumn* column) { return !contains(fields, column->name); };
+			columns.erase(std::remove_if(columns.begin(), columns.end(), isLeftOut), columns.end());
+		}
+		return pointDomains(
+		        points, scene, *solver.grid, columns, solver.basis == "gimp" ? std::optional(solver.domainRule()) : std::nullopt,
+		        areAll || contains(fields, "clamped"), sectors);
 	}
 
 	void finishAll()
@@ -90,6 +97,8 @@ MpmVtkRecorder::MpmVtkRecorder()
 	initRun    = true;
 }
 
+MpmVtkRecorder::~MpmVtkRecorder() { settleQuietly(); }
+
 bool MpmVtkRecorder::isFileName(const string& text)
 {
 	return !text.empty() && std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -120,15 +129,21 @@ bool MpmVtkRecorder::isActivated()
 {
 	bool activated = false;
 	deliveringErrors(*scene, [&] {
+		if (isLastOfRun(*scene)) settle();
 		const Analysis& engine = followed();
 		activated              = isDue(momentOf(engine)) || (lastIsMissing() && endsWithThisIteration(*scene) && standsBehind(engine));
 	});
+	isInRun = activated;
 	return activated;
 }
 
 void MpmVtkRecorder::action()
 {
-	deliveringErrors(*scene, [&] { record(followed()); });
+	const bool isCalledByName = !std::exchange(isInRun, false);
+	deliveringErrors(*scene, [&] {
+		record(followed());
+		if (isCalledByName) settle();
+	});
 }
 
 void MpmVtkRecorder::stepBegins(const Analysis& engine)
@@ -160,12 +175,32 @@ void MpmVtkRecorder::stepFailed(const Analysis& engine)
 
 void MpmVtkRecorder::finish()
 {
+	settleQuietly();
 	if (dead || !lastIsMissing()) return;
 	isUnwritten = false; // one attempt
 	try {
 		if (isFirstProcess() || isDivided(followed())) writeAll(followed());
+		settle();
 	} catch (const std::exception& error) { // must not take the place of what has ended the simulation
 		log(Severity::error, getClassName(), string("the last state is missing: ") + error.what());
+	}
+}
+
+// Waits for the files that are being written; throws what writing them has. `written` has those that are complete.
+void MpmVtkRecorder::settle()
+{
+	if (!inFlight.valid()) return;
+	const WrittenFiles outcome = inFlight.get();
+	written                    = outcome.files;
+	if (outcome.failure) std::rethrow_exception(outcome.failure);
+}
+
+void MpmVtkRecorder::settleQuietly()
+{
+	try {
+		settle();
+	} catch (const std::exception& error) { // must not take the place of what has ended the simulation
+		log(Severity::error, getClassName(), string("a state is missing: ") + error.what());
 	}
 }
 
@@ -226,6 +261,7 @@ void MpmVtkRecorder::record(const Analysis& engine)
 {
 	if (isDivided(engine)) fieldsOfPoints = fieldsOfAll(engine);
 	writeTogether(engine, [&] { writeAll(engine); });
+	if (isLastOfRun(*scene)) settle();
 	const Moment now = momentOf(engine);
 	if (isDue(now)) restartPeriods(now);
 	isUnwritten                    = false;
@@ -261,36 +297,33 @@ void MpmVtkRecorder::requireOwnFiles() const
 	}
 }
 
+// The data of the files are there at once; while they are written, the next step may be made.
 void MpmVtkRecorder::writeAll(const Analysis& engine)
 {
+	settle();
 	requireAdmissible();
 	requireOwnFiles();
 	engine.requireAttributes();
 	engine.grid->requireAdmissible();
-	for (const string& kind : kinds)
-		if (contains(recorders, kind) || contains(recorders, "all")) write(kind, momentOf(engine), engine);
+	vector<StateFile> files;
+	const Moment      now = momentOf(engine);
+	for (const string& kind : kinds) {
+		if (!contains(recorders, kind) && !contains(recorders, "all")) continue;
+		const string series = fileName + kind + ".";
+		if (isWritten(series, now)) continue;
+		const auto cells = kind == "points" ? pointData(*scene, engine, fieldsOfPoints, fields, sectors) : gridCells(kind, *scene, engine);
+		files.push_back({ series, stateFile(kind, series + std::to_string(now.iter), engine), now.time, cells });
+	}
+	inFlight = std::async(std::launch::async, &writeStates, files, written, VtkFormat { ascii, compress });
+	if (isDivided(engine)) return settle(); // all processes fail together
+	for (const StateFile& file : files)
+		written = withFile(written, file);
 }
 
-void MpmVtkRecorder::write(const string& kind, const Moment& now, const Analysis& engine)
+bool MpmVtkRecorder::isWritten(const string& series, const Moment& now) const
 {
-	const string series = fileName + kind + ".", file = stateFile(kind, series + std::to_string(now.iter), engine);
-	const auto   isOfSeries = [&](const auto& entry) { return entry.first.compare(0, series.size(), series) == 0; };
-	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
-	if (latest != written.rend() && latest->second == now.time) return;
-
-	const auto cells = kind == "points" ? pointData(*scene, engine, fieldsOfPoints, fields, sectors) : gridCells(kind, *scene, engine);
-	writeState(*cells, now.time, file, { ascii, compress });
-
-	auto       entries    = written;
-	const auto isReplaced = [&](const auto& entry) { // a repeated step, or O.resetTime(), replaces it
-		return isOfSeries(entry) && (entry.first == file || entry.second >= now.time);
-	};
-	entries.erase(std::remove_if(entries.begin(), entries.end(), isReplaced), entries.end());
-	entries.emplace_back(file, now.time);
-	vector<std::pair<string, Real>> own;
-	std::copy_if(entries.begin(), entries.end(), std::back_inserter(own), isOfSeries);
-	if (isFirstProcess()) writePvd(own, series + "pvd");
-	written = entries;
+	const auto latest = std::find_if(written.rbegin(), written.rend(), [&](const auto& entry) { return isOfSeries(entry, series); });
+	return latest != written.rend() && latest->second == now.time;
 }
 
 } // namespace yade

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "engine/analysis/LoadStepObserver.hpp"
-#include "engine/points/columns.hpp"
+#include "engine/output/statePieces.hpp"
 #include "yade_api/exposed.hpp"
+#include <future>
 
 namespace yade {
 
 class MpmVtkRecorder : public Exposed<MpmVtkRecorder, PeriodicEngine>, public LoadStepObserver {
 public:
-	string                          fileName; // must be given
-	vector<string>                  recorders { "points" };
-	vector<string>                  fields { "all" };
-	bool                            ascii    = false;
-	bool                            compress = true;
-	string                          solver;
-	int                             sectors = 0;
-	vector<std::pair<string, Real>> written;
+	string         fileName; // must be given
+	vector<string> recorders { "points" };
+	vector<string> fields { "all" };
+	bool           ascii    = false;
+	bool           compress = true;
+	string         solver;
+	int            sectors = 0;
+	Series         written;
 
 	MpmVtkRecorder();
+	~MpmVtkRecorder() override;
 
 	YADE_API_NAME(MpmVtkRecorder)
 	static const char* doc()
@@ -45,7 +47,7 @@ public:
 		  "files. Read as a tuple.",
 		  admitting(whichFields(), areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
-		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
+		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with LZ4, unless *ascii*; for readers without LZ4 (meshio) False.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
 		v("sectors", &MpmVtkRecorder::sectors, 0,
 		  "Parts of the circle into which 'points' are revolved about the axis, with MpmGrid.axisymmetric, at least 3; 0, the default: the section.",
@@ -84,13 +86,17 @@ private:
 	void            stepFailed(const Analysis&);
 	void            record(const Analysis&);
 	void            writeAll(const Analysis&);
-	void            write(const string& kind, const Moment&, const Analysis&);
+	bool            isWritten(const string& series, const Moment&) const;
+	void            settle();
+	void            settleQuietly();
 
 	// Members of this process, so they are not saved:
 	long                       lastStepIter = -1;                                     // O.iter in the last step
 	Real                       knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
 	vector<const PointColumn*> fieldsOfPoints;                                        // fields that there are, written last
 	bool                       isUnwritten = false;                                   // true if no file has that state, which this process has reached
+	bool                       isInRun     = false;                                   // true if YADE's loop asks for the next file
+	std::future<WrittenFiles>  inFlight;                                              // while they are written
 };
 
 } // namespace yade

@@ -6,6 +6,7 @@
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "yade_api/value_lock.hpp"
+#include <algorithm>
 #include <filesystem>
 #include <vtkUnstructuredGrid.h>
 
@@ -47,15 +48,46 @@ string stateFile(const string& kind, const string& path, const Analysis& engine)
 	        + "' does not go with MpmImplicitEngine.distributed yet, by which no process has all points: there are 'points', 'loads', 'walls' and 'contacts'.");
 }
 
-void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, VtkFormat format)
+bool isOfSeries(const std::pair<string, Real>& file, const string& series) { return file.first.compare(0, series.size(), series) == 0; }
+
+Series withFile(const Series& files, const StateFile& file)
 {
-	if (std::filesystem::path(file).extension() == ".vtu") {
-		if (isFirstProcess()) writeVtu(cells, time, file, format);
-		return;
+	Series     all        = files;
+	const auto isReplaced = [&](const auto& entry) { return isOfSeries(entry, file.series) && (entry.first == file.path || entry.second >= file.time); };
+	all.erase(std::remove_if(all.begin(), all.end(), isReplaced), all.end());
+	all.emplace_back(file.path, file.time);
+	return all;
+}
+
+namespace {
+	void writeState(const StateFile& file, VtkFormat format)
+	{
+		if (std::filesystem::path(file.path).extension() == ".vtu") {
+			if (isFirstProcess()) writeVtu(*file.cells, file.time, file.path, format);
+			return;
+		}
+		const auto all = processes();
+		writeVtu(*file.cells, file.time, pieceOf(file.path, all->rank()), format);
+		if (all->rank() == 0) writePvtu(*file.cells, file.time, file.path, all->size());
 	}
-	const auto all = processes();
-	writeVtu(cells, time, pieceOf(file, all->rank()), format);
-	if (all->rank() == 0) writePvtu(cells, time, file, all->size());
+}
+
+WrittenFiles writeStates(const vector<StateFile>& states, const Series& before, VtkFormat format)
+{
+	WrittenFiles made { before, nullptr };
+	try {
+		for (const StateFile& file : states) {
+			writeState(file, format);
+			const Series all = withFile(made.files, file);
+			Series       own;
+			std::copy_if(all.begin(), all.end(), std::back_inserter(own), [&](const auto& entry) { return isOfSeries(entry, file.series); });
+			if (isFirstProcess()) writePvd(own, file.series + "pvd");
+			made.files = all;
+		}
+	} catch (...) {
+		made.failure = std::current_exception();
+	}
+	return made;
 }
 
 } // namespace yade

@@ -3,8 +3,10 @@
 #include "core/grid/mixed_cells.hpp"
 #include "core/stepping/step_system.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/points/parallel.hpp"
 #include "engine/points/stretched.hpp"
 #include <algorithm>
+#include <tuple>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -34,7 +36,12 @@ namespace {
 	class Cells {
 	public:
 		explicit Cells(int type) : type(type) { points->SetDataTypeToDouble(); }
-		vtkIdType                addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
+		vtkIdType addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
+		void      reserve(size_t number, int corners)
+		{
+			points->Allocate(number * corners);
+			cells->AllocateExact(number, number * corners);
+		}
 		template <size_t N> void addCell(const std::array<vtkIdType, N>& pointIds, int used = N) { cells->InsertNextCell(used, pointIds.data()); }
 
 		VtkCells dataSet() const
@@ -51,20 +58,27 @@ namespace {
 		vtkNew<vtkCellArray> cells;
 	};
 
+	// Room for a field, which the data set has from now on.
+	template <class Array>
+	decltype(std::declval<Array>().GetPointer(0)) addRoom(vtkUnstructuredGrid& cells, const string& name, int components, size_t number)
+	{
+		const auto field = vtkSmartPointer<Array>::New();
+		field->SetName(name.c_str());
+		field->SetNumberOfComponents(components);
+		field->SetNumberOfTuples(number);
+		cells.GetCellData()->AddArray(field);
+		return field->GetPointer(0);
+	}
+
 	// One field: write(item, first of its components) for each item.
 	template <class Array, class Items, class Write>
 	void addField(vtkUnstructuredGrid& cells, const char* name, int components, const Items& items, Write write)
 	{
-		vtkNew<Array> field;
-		field->SetName(name);
-		field->SetNumberOfComponents(components);
-		field->SetNumberOfTuples(items.size());
-		auto* value = field->GetPointer(0);
+		auto* value = addRoom<Array>(cells, name, components, items.size());
 		for (const auto& item : items) {
 			write(item, value);
 			value += components;
 		}
-		cells.GetCellData()->AddArray(field);
 	}
 	template <class Items, class Get> void addReals(vtkUnstructuredGrid& cells, const char* name, const Items& items, Get get)
 	{
@@ -100,25 +114,50 @@ namespace {
 		return all;
 	}
 
-	void addColumn(
-	        vtkUnstructuredGrid& cells, const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene, const vector<Matrix3r>& turns)
+	void addColumns(
+	        vtkUnstructuredGrid& cells, const vector<const PointColumn*>& columns, const vector<MaterialPoint>& points, const Scene& scene,
+	        const vector<Matrix3r>& turns)
 	{
-		vector<Real> values(points.size() * column.width);
-		column.get(points, scene, values.data());
-		if (!turns.empty()) values = revolved(values, column.width, turns);
-		if (column.isInteger) return addIntegers(cells, column.name.c_str(), values, [](Real value) { return int(value); });
-		const auto field = vtkSmartPointer<vtkDoubleArray>::New();
-		field->SetName(column.name.c_str());
-		field->SetNumberOfComponents(column.width);
-		field->SetNumberOfTuples(values.size() / column.width);
-		std::copy(values.begin(), values.end(), field->GetPointer(0));
-		cells.GetCellData()->AddArray(field);
+		const size_t         parts = std::max<size_t>(1, turns.size());
+		vector<ColumnRows>   table;
+		vector<vector<Real>> others(columns.size()); // rows that are not yet those of the data set
+		vector<void*>        rooms;
+		for (size_t c = 0; c < columns.size(); ++c) {
+			const auto& [name, width, isInteger] = std::tie(columns[c]->name, columns[c]->width, columns[c]->isInteger);
+			rooms.push_back(
+			        isInteger ? static_cast<void*>(addRoom<vtkIntArray>(cells, name, width, parts * points.size()))
+			                  : addRoom<vtkDoubleArray>(cells, name, width, parts * points.size()));
+			if (isInteger || !turns.empty()) others[c].resize(points.size() * width);
+			table.push_back({ columns[c], others[c].empty() ? static_cast<Real*>(rooms[c]) : others[c].data() });
+		}
+		fillRows(table, points, scene);
+		for (size_t c = 0; c < columns.size(); ++c) {
+			if (others[c].empty()) continue;
+			const auto values = turns.empty() ? others[c] : revolved(others[c], columns[c]->width, turns);
+			if (columns[c]->isInteger) std::copy(values.begin(), values.end(), static_cast<int*>(rooms[c]));
+			else
+				std::copy(values.begin(), values.end(), static_cast<double*>(rooms[c]));
+		}
 	}
 
 	template <int Dim> bool isClamped(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::DomainRule rule)
 	{
 		const Vector3r size = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, rule);
 		return (size.template head<Dim>().array() > gimpm::largestHalf<Dim>(grid, point.state->pos.head<Dim>())).any();
+	}
+
+	// The field of those whose domain is cut off at half a cell.
+	template <int Dim>
+	void addClamped(
+	        vtkUnstructuredGrid& cells, const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid, std::optional<gimpm::DomainRule> rule,
+	        int sectors)
+	{
+		const int parts = std::max(1, sectors);
+		int*      first = addRoom<vtkIntArray>(cells, "clamped", 1, parts * points.size());
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end; ++p)
+				std::fill_n(first + parts * p, parts, rule && isClamped(points[p], grid, *rule));
+		});
 	}
 
 	template <int Dim> void addNodes(Cells& cells, const vector<gimpm::Key>& nodes, const gimpm::Grid<Dim>& grid, Real z)
@@ -171,10 +210,11 @@ vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>& points)
 
 VtkCells pointDomains(
         const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, const vector<const PointColumn*>& fields,
-        std::optional<gimpm::DomainRule> rule, int sectors)
+        std::optional<gimpm::DomainRule> rule, bool withClamped, int sectors)
 {
 	const int dim = grid.dim, boxDim = sectors > 0 ? 3 : dim;
 	Cells     domains(boxType(boxDim));
+	domains.reserve(points.size() * std::max(1, sectors), 1 << boxDim);
 	for (const MaterialPoint& point : points)
 		for (int sector = 0; sector < std::max(1, sectors); ++sector) {
 			std::array<vtkIdType, 8> box {};
@@ -187,17 +227,9 @@ VtkCells pointDomains(
 			}
 			domains.addCell(box, 1 << boxDim);
 		}
-	const auto cells          = domains.dataSet();
-	const auto turnsOfSectors = turns(sectors);
-	for (const PointColumn* column : fields)
-		addColumn(*cells, *column, points, scene, turnsOfSectors);
-	vector<char> clamped;
-	const auto   tell = [&](const auto& lattice) {
-                for (const MaterialPoint& p : points)
-                        clamped.insert(clamped.end(), std::max(1, sectors), rule && isClamped(p, lattice, *rule));
-	};
-	dim == 2 ? tell(grid.lattice<2>()) : tell(grid.lattice<3>());
-	addIntegers(*cells, "clamped", clamped, [](char isOne) { return isOne; });
+	const auto cells = domains.dataSet();
+	addColumns(*cells, fields, points, scene, turns(sectors));
+	if (withClamped) dim == 2 ? addClamped(*cells, points, grid.lattice<2>(), rule, sectors) : addClamped(*cells, points, grid.lattice<3>(), rule, sectors);
 	return cells;
 }
 

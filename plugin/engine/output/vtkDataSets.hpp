@@ -15,12 +15,12 @@ namespace yade {
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
 // The domain of each material point, in the order given, with its fields. `rule`: by which the domains deform; none:
-// they do not.
+// they do not. `withClamped`: with the field of those that are cut off at half a cell.
 // `sectors`: parts into which each is revolved about the axis x = 0, one after the other; vectors and tensors turn with
 // them. 0: the section.
 VtkCells pointDomains(
         const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, std::optional<gimpm::DomainRule> rule,
-        int sectors);
+        bool withClamped, int sectors);
 
 // Columns that are fields of these points.
 vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);

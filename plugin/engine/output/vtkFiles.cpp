@@ -103,7 +103,15 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	vtkNew<vtkXMLUnstructuredGridWriter> writer;
 	writer->SetInputData(&cells);
 	if (format.ascii) writer->SetDataModeToAscii();
-	if (!format.compress) writer->SetCompressorTypeToNone();
+	else {
+		writer->SetDataModeToAppended();
+		writer->EncodeAppendedDataOff();
+	}
+	if (format.compress) {
+		writer->SetCompressorTypeToLZ4();
+		writer->SetCompressionLevel(1);
+	} else
+		writer->SetCompressorTypeToNone();
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
 		const QuietVtk quiet; // readers of the exception need no words of VTK before it
@@ -134,7 +142,7 @@ void writePvtu(vtkUnstructuredGrid& piece, Real time, const string& path, int pi
 	});
 }
 
-void writePvd(const vector<std::pair<string, Real>>& series, const string& path)
+void writePvd(const Series& series, const string& path)
 {
 	writeWhole(path, [&](const string& temporary) {
 		std::ofstream file(temporary);

@@ -3,6 +3,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/columns.hpp"
 #include "yade_api/logging.hpp"
+#include <algorithm>
 #include <unordered_map>
 
 namespace yade {
@@ -21,16 +22,29 @@ namespace {
 			first[i] = get(i);
 		return bytes;
 	}
-	py::object valuesOf(const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
+	// The columns in this order, a bytearray each: of int64 or float64.
+	py::dict tableOf(const vector<const PointColumn*>& columns, const vector<MaterialPoint>& points, const Scene& scene)
 	{
-		if (column.isInteger) {
-			vector<Real> numbers(points.size());
-			column.get(points, scene, numbers.data());
-			return integers(points.size(), [&](size_t i) { return int64_t(numbers[i]); });
+		py::dict             table;
+		vector<ColumnRows>   rows;
+		vector<vector<Real>> integerRows(columns.size());
+		for (size_t c = 0; c < columns.size(); ++c) {
+			const size_t numbers = points.size() * columns[c]->width;
+			if (columns[c]->isInteger) {
+				integerRows[c].resize(numbers);
+				rows.push_back({ columns[c], integerRows[c].data() });
+				table[columns[c]->name] = py::object();
+			} else {
+				const auto [bytes, first] = newBytes<Real>(numbers);
+				rows.push_back({ columns[c], first });
+				table[columns[c]->name] = bytes;
+			}
 		}
-		const auto [bytes, first] = newBytes<Real>(points.size() * column.width);
-		column.get(points, scene, first);
-		return bytes;
+		fillRows(rows, points, scene);
+		for (size_t c = 0; c < columns.size(); ++c)
+			if (const auto& values = integerRows[c]; columns[c]->isInteger)
+				table[columns[c]->name] = integers(points.size(), [&](size_t i) { return int64_t(values[i]); });
+		return table;
 	}
 
 	// The materials that the bodies have, whether in O.materials or not, and which of them each point has.
@@ -64,18 +78,19 @@ void betweenSteps(const py::object& f)
 
 py::dict columnsOfPoints(int mask, bool withDerived, const py::tuple& besides)
 {
-	const ValueLock lock;
-	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
-	const auto      points = materialPoints(scene, mask);
-	py::dict        columns;
+	const ValueLock            lock;
+	const Scene&               scene  = *Singleton<Omega>::instance().getScene();
+	const auto                 points = materialPoints(scene, mask);
+	vector<const PointColumn*> columns;
 	for (const PointColumn* column : columnsOf(points))
-		if (column->is(PointColumn::inArrays) || (withDerived && column->is(PointColumn::derived)))
-			columns[column->name] = valuesOf(*column, points, scene);
+		if (column->is(PointColumn::inArrays) || (withDerived && column->is(PointColumn::derived))) columns.push_back(column);
 	for (py::ssize_t i = 0; i < py::len(besides); ++i)
-		if (const PointColumn* column = findColumn(py::extract<string>(besides[i])); column && !columns.has_key(column->name))
-			columns[column->name] = valuesOf(*column, points, scene);
-	addMaterials(columns, points);
-	return columns;
+		if (const PointColumn* column = findColumn(py::extract<string>(besides[i]));
+		    column && std::find(columns.begin(), columns.end(), column) == columns.end())
+			columns.push_back(column);
+	py::dict table = tableOf(columns, points, scene);
+	addMaterials(table, points);
+	return table;
 }
 
 } // namespace yade

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/columns.hpp"
+#include "core/materials/kinematics.hpp"
 #include "engine/materials/laws.hpp"
-#include <Eigen/Eigenvalues>
+#include "engine/points/parallel.hpp"
 #include <algorithm>
 #include <set>
 
@@ -9,7 +10,7 @@ namespace yade {
 
 namespace {
 	using Point    = const MaterialPoint&;
-	using Points   = const vector<MaterialPoint>&;
+	using First    = const MaterialPoint*;
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
@@ -19,9 +20,9 @@ namespace {
 	// Column of integers; of(point, scene) is the number.
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
 	{
-		const auto get = [of](Points points, const Scene& scene, Real* to) {
-			for (Point p : points)
-				*to++ = of(p, scene);
+		const auto get = [of](First p, First last, const Scene& scene, Real* to) {
+			for (; p != last; ++p)
+				*to++ = of(*p, scene);
 		};
 		return { name, "-", name, 1, true, uses, get, nullptr };
 	}
@@ -30,13 +31,13 @@ namespace {
 	{
 		using T             = std::decay_t<decltype(of(std::declval<Point>()))>;
 		constexpr int width = sizeof(T) / sizeof(Real);
-		const auto    get   = [of](Points points, const Scene&, Real* to) {
-                        for (Point p : points) {
-                                if constexpr (std::is_same_v<T, Real>) *to = of(p);
+		const auto    get   = [of](First p, First last, const Scene&, Real* to) {
+                        for (; p != last; ++p) {
+                                if constexpr (std::is_same_v<T, Real>) *to = of(*p);
                                 else if constexpr (std::is_same_v<T, Vector3r>)
-                                        Eigen::Map<Vector3r> { to } = of(p);
+                                        Eigen::Map<Vector3r> { to } = of(*p);
                                 else
-                                        Eigen::Map<RowByRow> { to } = of(p);
+                                        Eigen::Map<RowByRow> { to } = of(*p);
                                 to += width;
                         }
 		};
@@ -85,10 +86,10 @@ namespace {
 	}
 	PointColumn internal(const gimpm::InternalVariable& variable)
 	{
-		const auto get = [&variable](Points points, const Scene&, Real* to) {
-			for (Point p : points) {
-				const Real* value = p.state->internal(variable.name);
-				*to++             = value ? *value : initialValue(p, variable);
+		const auto get = [&variable](First p, First last, const Scene&, Real* to) {
+			for (; p != last; ++p) {
+				const Real* value = p->state->internal(variable.name);
+				*to++             = value ? *value : initialValue(*p, variable);
 			}
 		};
 		const auto set = [&variable](Point p, const Real* from) { p.state->setInternal(variable.name, *from); };
@@ -105,19 +106,27 @@ namespace {
 	PointColumn parameter(const Parameter& of)
 	{
 		const char* name = of.name;
-		const auto  get  = [name](Points points, const Scene&, Real* to) {
-                        for (Point p : points)
-                                *to++ = parameterOf(p, name);
+		const auto  get  = [name](First p, First last, const Scene&, Real* to) {
+                        for (; p != last; ++p)
+                                *to++ = parameterOf(*p, name);
 		};
 		const auto set = [name](Point p, const Real* from) { p.state->setParameter(name, *from); };
 		return { name, of.unit, of.label, 1, false, arrays | vtk, get, set, nullptr, true };
 	}
 
-	// Half the logarithm of the left Cauchy-Green tensor.
+	// Half the logarithm of the left Cauchy-Green tensor, for F = 1 + d.
+	template <int Dim> Matrix3r strainOf(const gimpm::Mat<Dim>& d, Real across)
+	{
+		const auto b1 = gimpm::SymTensor<Dim>::from(gimpm::Mat<Dim>(d + d.transpose() + d * d.transpose()), across);
+		const auto p  = gimpm::principal(b1);
+		return gimpm::assemble<double, Dim>(gimpm::logStrain(p.value), p.axes).full();
+	}
 	Matrix3r strain(Point p)
 	{
-		const Eigen::SelfAdjointEigenSolver<Matrix3r> b(p.state->defGrad * p.state->defGrad.transpose());
-		return b.eigenvectors() * (b.eigenvalues().array().log() / 2).matrix().asDiagonal() * b.eigenvectors().transpose();
+		const Matrix3r& F         = p.state->defGrad;
+		const Matrix3r  d         = F - Matrix3r::Identity();
+		const bool      isInPlane = F(0, 2) == 0 && F(1, 2) == 0 && F(2, 0) == 0 && F(2, 1) == 0;
+		return isInPlane ? strainOf<2>(d.topLeftCorner<2, 2>(), d(2, 2) * (2 + d(2, 2))) : strainOf<3>(d, 0);
 	}
 
 	Matrix3r totalStress(Point p) { return p.state->stress - p.state->porePressure * Matrix3r::Identity(); }
@@ -198,6 +207,17 @@ const vector<PointColumn>& pointColumns()
 {
 	static const vector<PointColumn> columns = makeColumns();
 	return columns;
+}
+
+// The parts of a body lie in many places: all columns of a few bodies are filled while these are at hand.
+void fillRows(const vector<ColumnRows>& table, const vector<MaterialPoint>& points, const Scene& scene)
+{
+	constexpr size_t few = 64;
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; p += few)
+			for (const ColumnRows& rows : table)
+				rows.column->get(&points[p], points.data() + std::min(p + few, end), scene, rows.to + p * rows.column->width);
+	});
 }
 
 const PointColumn* findColumn(const string& name)

@@ -26,8 +26,10 @@ struct PointColumn {
 	bool     isInteger;
 	unsigned uses;
 
-	std::function<void(const vector<MaterialPoint>&, const Scene&, Real*)> get; // row by row
-	std::function<void(const MaterialPoint&, const Real*)>                 set; // none: a result
+	// Row by row, of points from the first one to before the last.
+	std::function<void(const MaterialPoint* first, const MaterialPoint* last, const Scene&, Real*)> get;
+
+	std::function<void(const MaterialPoint&, const Real*)> set; // none: a result
 
 	const gimpm::InternalVariable* variable    = nullptr; // variable of laws; null: every point has it
 	bool                           isParameter = false;   // parameter of laws: present if a point has its own
@@ -40,6 +42,15 @@ const vector<PointColumn>& pointColumns();
 
 // Those that one of the points has. The plastic strain is an attribute of all.
 vector<const PointColumn*> columnsOf(const vector<MaterialPoint>&);
+
+// A column, and room for its rows.
+struct ColumnRows {
+	const PointColumn* column;
+	Real*              to;
+};
+
+// Fills columns of all points.
+void fillRows(const vector<ColumnRows>&, const vector<MaterialPoint>&, const Scene&);
 
 // Null: there is no such column.
 const PointColumn* findColumn(const string& name);

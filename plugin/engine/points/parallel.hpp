@@ -22,12 +22,13 @@ inline void requireThreadsOfThisProcess(int threads)
 	        "the engine.");
 }
 
-// Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is
-// thrown.
+// Calls f(begin, end) for ranges that make up [0, n), a thread each; a process that was forked has one. Of what they
+// throw, that of the first range is thrown.
 template <class F> void inRanges(size_t n, F f)
 {
 	constexpr size_t                worthwhile = 2000; // bodies for which to wake another thread
-	const int                       ranges     = int(std::min<size_t>(omp_get_max_threads(), 1 + n / worthwhile));
+	const int                       threads    = getpid() == firstProcess ? omp_get_max_threads() : 1;
+	const int                       ranges     = int(std::min<size_t>(threads, 1 + n / worthwhile));
 	std::vector<std::exception_ptr> thrown(ranges);
 #pragma omp parallel for num_threads(ranges) schedule(static, 1)
 	for (int r = 0; r < ranges; ++r)

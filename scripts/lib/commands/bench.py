@@ -51,6 +51,7 @@ variants = {
         'no predictor': dict(predictor=False),
         'no factor twice': dict(reuseFactor=False),
         'recorder at every step': dict(recorder=True),
+        'recorder of two fields': dict(recorder=['displacement', 'plasticStrain']),
         'mpm.arrays() at every step': dict(arrays=True)
 }
 

@@ -374,6 +374,32 @@ print(json.dumps([message, left]))
 	assert 'vtk' not in run.stderr.replace('column-points.3.vtu', '') # words of that library for the same
 
 
+def test_a_file_that_fails_while_the_run_goes_on_ends_it(yade):
+	"""Files are written beside the next step."""
+	run = yade(
+	        '''
+import json, os, resource
+from scenes import *
+column(64)
+recorder = MpmVtkRecorder(fileName='out/column-')
+fill = "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))"
+O.engines += [PyRunner(iterPeriod=1, initRun=True, command=f'if O.iter == 1: {fill}'), recorder]
+message = ''
+try:
+	O.run(8, wait=True)
+except RuntimeError as error:
+	message = str(error)
+resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+print(json.dumps([message, O.iter, sorted(os.listdir('out')), [file for file, time in recorder.written]]))
+'''
+	)
+	message, reached, left, written = run.result
+	assert message == 'cannot write file out/column-points.2.vtu: File too large.'
+	assert reached <= 4
+	assert left == ['column-points.0.vtu', 'column-points.1.vtu', 'column-points.pvd']
+	assert written == ['out/column-points.0.vtu', 'out/column-points.1.vtu']
+
+
 mistakes = {
         "MpmVtkRecorder(recorders=['points', 'spheres'])": (
                 ValueError, "MpmVtkRecorder.recorders = ('points', 'spheres') is not admitted: expected one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'"
