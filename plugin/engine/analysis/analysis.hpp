@@ -12,6 +12,7 @@
 #include "yade_api/scene.hpp"
 
 namespace yade {
+struct MaterialPoint;
 
 class Analysis : public RunResults {
 public:
@@ -48,6 +49,9 @@ public:
 	virtual Scene&            sceneOfRun() const        = 0; // scene in which it was called
 	virtual long              period() const            = 0; // iterations from run to run
 	virtual long              runs() const              = 0; // so far
+
+	// Material points of the last run, in this process.
+	virtual const vector<MaterialPoint>& pointsOfLastRun() const = 0;
 
 	gimpm::DomainRule domainRule() const { return domains == "stretch" ? gimpm::DomainRule::stretch : gimpm::DomainRule::tiling; }
 

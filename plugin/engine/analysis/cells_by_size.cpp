@@ -8,12 +8,10 @@ namespace yade {
 namespace {
 	template <int Dim> std::map<Real, int> countCells(const MpmGrid& grid, const vector<MaterialPoint>& points)
 	{
-		const auto lattice = grid.lattice<Dim>();
-		const auto cells   = cellsOf(centresOnGrid(points, lattice), lattice);
-		if (!lattice.refinement && !cells.empty()) return { { lattice.cellSize, int(cells.size()) } };
+		const auto           lattice = grid.lattice<Dim>();
 		std::set<gimpm::Key> leaves;
-		for (const gimpm::Key cell : cells)
-			leaves.insert(lattice.refinement->leafOf(cell));
+		for (const gimpm::Key cell : cellsOf(centresOnGrid(points, lattice), lattice))
+			leaves.insert(lattice.refinement ? lattice.refinement->leafOf(cell) : cell);
 		std::map<Real, int> counts;
 		for (const gimpm::Key leaf : leaves)
 			++counts[lattice.size(gimpm::Grid<Dim>::level(leaf))];

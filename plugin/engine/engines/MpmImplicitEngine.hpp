@@ -119,6 +119,8 @@ public:
 	long              period() const override { return iterPeriod; }
 	long              runs() const override { return nDone; }
 
+	const vector<MaterialPoint>& pointsOfLastRun() const override { return points; }
+
 	static bool areContacts(const vector<shared_ptr<MpmCondition>>&);
 	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
 

@@ -5,6 +5,7 @@
 #include "engine/analysis/cells_by_size.hpp"
 #include "engine/messages/failures.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include "engine/points/parallel.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -15,7 +16,7 @@ namespace {
 	struct Row {
 		const char* key;
 		const char* meaning;
-		py::object (*value)(const Analysis&, const vector<MaterialPoint>&);
+		py::object (*value)(const Analysis&, const gimpm::Coverage&);
 	};
 
 	py::dict secondsByPhase(const Analysis& engine)
@@ -26,21 +27,27 @@ namespace {
 		return seconds;
 	}
 
-	template <int Dim> Real mismatchIn(const Analysis& engine, const vector<MaterialPoint>& points)
+	template <int Dim> gimpm::Coverage coverageIn(const Analysis& engine)
 	{
-		std::vector<gimpm::Vec<Dim>> centres, halfLengths;
-		for (const MaterialPoint& point : points) {
-			const Vector3r x    = (point.state->pos - engine.grid->origin) / engine.grid->cellSize,
-			               half = point.shape->halfSize / engine.grid->cellSize;
-			centres.push_back(x.head<Dim>()), halfLengths.push_back(half.head<Dim>());
-		}
-		return gimpm::coverage<Dim>(centres, halfLengths).mean;
+		const auto&                  points = engine.pointsOfLastRun();
+		std::vector<gimpm::Vec<Dim>> centres(points.size()), halfLengths(points.size());
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end; ++p) {
+				centres[p]     = ((points[p].state->pos - engine.grid->origin) / engine.grid->cellSize).template head<Dim>();
+				halfLengths[p] = (points[p].shape->halfSize / engine.grid->cellSize).template head<Dim>();
+			}
+		});
+		return gimpm::coverage<Dim>(centres, halfLengths);
 	}
 
-	py::object numbersOfCells(const Analysis& engine, const vector<MaterialPoint>& points)
+	py::object numbersOfCells(const Analysis& engine, const gimpm::Coverage& coverage)
 	{
 		py::dict cells;
-		for (const auto& [size, number] : cellsBySize(*engine.grid, points))
+		if (engine.grid->refinements.empty() && engine.grid->adapted.empty()) {
+			cells[engine.grid->cellSize] = coverage.populated;
+			return cells;
+		}
+		for (const auto& [size, number] : cellsBySize(*engine.grid, engine.pointsOfLastRun()))
 			cells[size] = number;
 		return cells;
 	}
@@ -48,64 +55,64 @@ namespace {
 	string axisOf(const Analysis& engine) { return engine.last.worst.axis < 0 ? string() : string(1, "xyz"[engine.last.worst.axis]); }
 
 	using E          = const Analysis&;
-	using Points     = const vector<MaterialPoint>&;
+	using C          = gimpm::Coverage;
 	const Row rows[] = {
 		{ "accepted", "True if a step that has not converged was taken over (see MpmNewton.acceptUnconverged).",
-		  [](E e, Points) { return py::object(e.last.accepted); } },
+		  [](E e, const C&) { return py::object(e.last.accepted); } },
 		{ "failure",
 		  "'none', 'detached' (a boundary that is to move constrains no soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' "
 		  "(friction at its limit does not support it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), "
 		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a time step with spurious energy gain), 'stabilised' (MpmGhost.workTolerance), "
 		  "'singular', 'inverted', 'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states) or "
 		  "'interrupted'.",
-		  [](E e, Points) { return py::object(nameOf(e.last.failure)); } },
-		{ "cause", "The reason, a clause, empty when converged.", [](E e, Points) { return py::object(e.last.cause); } },
+		  [](E e, const C&) { return py::object(nameOf(e.last.failure)); } },
+		{ "cause", "The reason, a clause, empty when converged.", [](E e, const C&) { return py::object(e.last.cause); } },
 		{ "cutFailure",
 		  "Kind of failure for which the last step that was cut was cut, as *failure*, also of an earlier run; 'none' if none was. *stepPart* is what it left.",
-		  [](E e, Points) { return py::object(nameOf(e.lastCut.failure)); } },
-		{ "cutCause", "Its reason, a clause, empty if no step was cut.", [](E e, Points) { return py::object(e.lastCut.cause); } },
-		{ "loadTime", "Of the last converged state [s].", [](E e, Points) { return py::object(e.loadTime); } },
+		  [](E e, const C&) { return py::object(nameOf(e.lastCut.failure)); } },
+		{ "cutCause", "Its reason, a clause, empty if no step was cut.", [](E e, const C&) { return py::object(e.lastCut.cause); } },
+		{ "loadTime", "Of the last converged state [s].", [](E e, const C&) { return py::object(e.loadTime); } },
 		{ "times",
 		  "Of the run by phase [s], a dict: 'check' (of points that are new or were changed), 'gather', 'agree' (several processes, on the points), 'basis', "
 		  "'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.",
-		  [](E e, Points) { return py::object(secondsByPhase(e)); } },
-		{ "points", "Material points in the run.", [](E e, Points) { return py::object(e.pointsOfRun); } },
+		  [](E e, const C&) { return py::object(secondsByPhase(e)); } },
+		{ "points", "Material points in the run.", [](E e, const C&) { return py::object(e.pointsOfRun); } },
 		{ "cells", "Cells in which middles of points lie, by edge length [m], a dict. Of the points of this process.", numbersOfCells },
-		{ "nodes", "Grid nodes of the last load step that was tried.", [](E e, Points) { return py::object(e.last.nodes); } },
+		{ "nodes", "Grid nodes of the last load step that was tried.", [](E e, const C&) { return py::object(e.last.nodes); } },
 		{ "cgFailure", "Why an iterative solve of it was left to the direct solver, or multigrid was not set up; empty if neither was so.",
-		  [](E e, Points) { return py::object(e.last.conjugateGradients.reason); } },
+		  [](E e, const C&) { return py::object(e.last.conjugateGradients.reason); } },
 		{ "localResidual",
 		  "The largest residual around a node over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not "
 		  "asked for).",
-		  [](E e, Points) { return py::object(e.last.localResidual); } },
+		  [](E e, const C&) { return py::object(e.last.localResidual); } },
 		{ "localError",
 		  "The estimated error of the displacements over newton.stepTolerance or timeTolerance [-], 0 where neither is given, or nothing is known of it or "
 		  "asked, as in steps of newton.minStep.",
-		  [](E e, Points) { return py::object(e.last.localError); } },
+		  [](E e, const C&) { return py::object(e.last.localError); } },
 		{ "stiffness",
 		  "Kind of the last matrix that was factorised: 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have "
 		  "another state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve).",
-		  [](E e, Points) { return py::object(nameOf(e.last.definiteness)); } },
+		  [](E e, const C&) { return py::object(nameOf(e.last.definiteness)); } },
 		{ "worstNode", "Position [m] of the largest out-of-balance force, NaN if there is none.",
-		  [](E e, Points) { return py::object(Vector3r(e.last.worst.position)); } },
-		{ "worstAxis", "Its direction, 'x', 'y', 'z' or ''.", [](E e, Points) { return py::object(axisOf(e)); } },
-		{ "worstForce", "Its size [N].", [](E e, Points) { return py::object(e.last.worst.force); } },
+		  [](E e, const C&) { return py::object(Vector3r(e.last.worst.position)); } },
+		{ "worstAxis", "Its direction, 'x', 'y', 'z' or ''.", [](E e, const C&) { return py::object(axisOf(e)); } },
+		{ "worstForce", "Its size [N].", [](E e, const C&) { return py::object(e.last.worst.force); } },
 		{ "mixedCells",
 		  "Cells populated by points of different materials: each point keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to "
 		  "one cell.",
-		  [](E e, Points) { return py::object(e.last.mixedCells); } },
+		  [](E e, const C&) { return py::object(e.last.mixedCells); } },
 		{ "islands",
 		  "Parts of the body that share no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as "
 		  "long as every part is constrained against rigid motion; a part that is not ends the run as 'unrestrained', with its position, since no equilibrium determines "
 		  "where it goes.",
-		  [](E e, Points) { return py::object(e.last.parts); } },
+		  [](E e, const C&) { return py::object(e.last.parts); } },
 		{ "loosePoints",
 		  "Points in parts of the body that a static step has constrained where they are: fewer than a cell has nodes, apart from the rest or connected to it by a corner or an edge of a cell, "
 		  "and nothing restrains them. "
 		  "Of MpmDynamicEngine see there.",
-		  [](E e, Points) { return py::object(e.last.loosePoints); } },
+		  [](E e, const C&) { return py::object(e.last.loosePoints); } },
 		{ "looseForce", "The force with which they are constrained, in all [N]; by a node that they share with the rest they may weigh on that, too.",
-		  [](E e, Points) { return py::object(Vector3r(e.last.looseForce)); } },
+		  [](E e, const C&) { return py::object(Vector3r(e.last.looseForce)); } },
 		{ "clampedDomains",
 		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
 		  "maxSplits).",
@@ -113,7 +120,7 @@ namespace {
 		{ "domainMismatch",
 		  "Mean difference of the covered part of a cell from 1 [-], over the cells within the soil: 0 where the domains of points tile. Beyond 0.05, as after long shear obliquely to the "
 		  "grid, soil is too weak there by up to that part: smaller cells, or maxSplits, help. Of the points of this process.",
-		  [](E e, Points points) { return py::object(e.grid->dim == 2 ? mismatchIn<2>(e, points) : mismatchIn<3>(e, points)); } },
+		  [](E, const C& coverage) { return py::object(coverage.mean); } },
 		{ "wallOverlap",
 		  "The largest length [m] by which a domain reached behind a wall in the last step: no cell is populated there, and the point's share in nodes behind "
 		  "the wall counts as constrained.",
@@ -142,9 +149,9 @@ py::dict report(const Analysis& engine)
 	py::dict        result;
 	if (engine.times.empty()) return result;
 	engine.tell(result, RunResults::byReport);
-	const auto points = materialPoints(*engine.ownScene(), engine.mask);
+	const auto coverage = engine.grid->dim == 2 ? coverageIn<2>(engine) : coverageIn<3>(engine);
 	for (const Row& row : rows)
-		if (row.value) result[row.key] = row.value(engine, points);
+		if (row.value) result[row.key] = row.value(engine, coverage);
 	engine.tellMotion(result);
 	return result;
 }
