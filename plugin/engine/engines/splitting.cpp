@@ -101,10 +101,17 @@ namespace {
 			// Strongly stretched domains, which a body has kept from being split until it has passed, stay
 			// whole. Their gradient is not that of the soil more than a cell away, and halves there would
 			// be soil that has jumped.
-			if (offset.norm() > 2 * limitOf(point)) return false;
+			if (offset.norm() > 2 * limitOf(point) && isSlender(point, offset.norm())) return false;
 			const auto& layers = job.model.layers;
 			const int   layer  = layers.empty() ? 0 : layers[point.state->body + 1];
 			return isFree(middle, middle + offset, layer) && isFree(middle, middle - offset, layer);
+		}
+
+		// True if four times the offset, the length of an edge, is more than twice the size of the domain.
+		bool isSlender(const MaterialPoint& point, Real offset) const
+		{
+			const Real grown = point.state->defGrad.template topLeftCorner<Dim, Dim>().determinant();
+			return 2 * offset > std::pow(grown * initialSection<Dim>(point.shape->halfSize0), 1. / Dim);
 		}
 
 		// No wall on the grid's lines, axis of symmetry or condition comes between the middles of the whole and

@@ -53,6 +53,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
+:func:`untilAccurate`        a result that is as accurate as asked for, by cells that are halved again and again
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
 :func:`checkLaw`             whether the tangent of a law, as of a user material, is that of its stress
 :func:`calibrate`            parameters of a law from the curves of laboratory tests; :func:`typicalSand` has them where there are none
@@ -67,6 +68,7 @@ from yade import wrapper as _wrapper
 
 from .base import processes
 from . import ending
+from .analysis.accuracy import untilAccurate
 from .analysis.advice import advise
 from .analysis.bending import sectionForces
 from .analysis.darcy import seepage
@@ -104,7 +106,7 @@ from .points.geostatics import geostatic
 from .points.tables import export, frame
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'untilAccurate', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

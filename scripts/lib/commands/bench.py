@@ -277,7 +277,9 @@ def otherRevision(revision):
 
 def compare(here, there):
 	"""Seconds of (this revision, the other) by part, each the least of the rounds."""
-	plans = dict(slope=dict(cellSize=.5, steps=20), slice=dict(cellSize=1, pointsPerCell=2, depth=4, steps=10))
+	plans = dict(
+	        slope=dict(cellSize=.5, steps=20), elastic=dict(cellSize=.5, steps=20, elastic=True), recorder=dict(cellSize=.5, steps=20, recorder=True),
+	        slice=dict(cellSize=1, pointsPerCell=2, depth=4, steps=10))
 	if options.quick: plans = dict(slope=dict(cellSize=1, steps=2))
 	haveKernels = os.path.exists(os.path.join(there.folder, 'tests/bench/kernels.cpp')) and not options.quick
 	found = {}

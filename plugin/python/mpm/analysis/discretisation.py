@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Error of a result that is due to the size of the cells."""
 import math
-import time
 
 import numpy as np
-from yade import wrapper
 
 from ..base.messages import brief, isNumber
 from ..base.solver import noPoints, solverOf
-from ..points.data import arrays, pointsOf
+from ..points.data import pointsOf
 from .recovery import smoothed
 from .refinement import errorOf
+from .repeated import enginesOf, resultOf
 
 
 def stressError(solver=None):
@@ -96,30 +95,11 @@ def discretisationError(run, cellSize):
 
 def _resultOf(run, size):
 	"""Numbers by name of the run with cells of a size."""
-	wrapper.Omega().reset()
-	began = time.time()
-	try:
-		result = run(size)
-	except Exception as error:
-		raise RuntimeError(f'discretisationError: the run with cells of {size:g} m fails: {type(error).__name__}: {error}') from error
-	engines = [engine for engine in wrapper.Omega().engines if isinstance(engine, wrapper.MpmImplicitEngine)]
-	others = [engine.grid.cellSize for engine in engines]
+	result, _ = resultOf('discretisationError', run, size, f'cells of {size:g} m')
+	others = [engine.grid.cellSize for engine in enginesOf()]
 	if others and not any(math.isclose(other, size, rel_tol=1e-9) for other in others):
 		raise ValueError(f'discretisationError: run({size:g}) makes a grid with cellSize = {others[0]:g} m: expected its argument, as in MpmGrid(cellSize=cellSize)')
-	if result is None: result = dict(displacement=_largestDisplacement(size))
-	elif not isinstance(result, dict): result = dict(value=result)
-	for name, value in result.items():
-		if not isNumber(value): raise TypeError(f'discretisationError: run({size:g}) returns {name} = {brief(value)}: expected a number, a dict of numbers by name, or None')
-		if not math.isfinite(value): raise ValueError(f'discretisationError: run({size:g}) returns {name} = {value}: expected a finite number')
-	if not result: raise ValueError(f'discretisationError: run({size:g}) returns an empty dict: expected a number for each name')
-	print(f'cells of {size:g} m, {time.time() - began:.2g} s: ' + ', '.join(f'{name} = {value:.6g}' for name, value in result.items()))
-	return {name: float(value) for name, value in result.items()}
-
-
-def _largestDisplacement(size):
-	points = arrays()
-	if not len(points['id']): raise ValueError(f'discretisationError: run({size:g}) returns None, and has left no material points whose largest displacement could be taken')
-	return np.linalg.norm(points['pos'] - points['pos0'], axis=1).max()
+	return result
 
 
 def _judged(sizes, values):

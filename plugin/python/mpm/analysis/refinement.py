@@ -16,3 +16,17 @@ def errorOf(coarser, value, finer):
 	before, change = value - coarser, finer - value
 	oneWay = before * change >= 0
 	return abs(change) * (2 if oneWay else math.sqrt(0.5)), oneWay, abs(change) < 0.75 * abs(before) or change == 0
+
+
+def errorOfFinest(coarser, value, finer):
+	"""Error of *finer*, from itself and what cells twice and four times as large give.
+
+	Where changes shrink by q in each halving, what is left is d q / (1 - q) of the last change d; it is taken for d at least, as errorOf() does, for q of a half. Where values go up and down it
+	is between 0 and d, and the estimate d / 2.
+
+	:return: estimate, in the unit of the values and >= 0; and q, infinity where the change before was none and this is one
+	"""
+	before, change = value - coarser, abs(finer - value)
+	shrinks = change / abs(before) if before else math.inf if change else 0.
+	if before * (finer - value) < 0: return change / 2, shrinks
+	return change * max(1, shrinks / (1 - shrinks) if shrinks < 0.75 else 3), shrinks
