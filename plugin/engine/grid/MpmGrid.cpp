@@ -85,6 +85,18 @@ void MpmGrid::requireAdmissible() const
 	throw std::invalid_argument(text.str());
 }
 
+Real MpmGrid::smallestCell() const
+{
+	int        most = 0;
+	const auto look = [&most](const auto& list) {
+		for (const auto& one : list)
+			most = std::max(most, one->halvings);
+	};
+	look(refinements);
+	look(adaptation);
+	return cellSize / (1 << most);
+}
+
 int MpmGrid::bodyNamed(const string& name) const
 {
 	for (size_t b = 0; b < bodies.size(); ++b)

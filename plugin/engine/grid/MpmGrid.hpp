@@ -59,6 +59,9 @@ public:
 	// The place of a body of this name among the bodies, or -1.
 	int bodyNamed(const string& name) const;
 
+	// Size [m] of the smallest cells that there may be.
+	Real smallestCell() const;
+
 	// Grid of the core. std::invalid_argument unless periods are whole numbers of cells, as many as basis
 	// functions need, and the axis of symmetry is on nodes.
 	template <int Dim> gimpm::Grid<Dim> lattice() const;

@@ -293,7 +293,7 @@ vector<string> Plausibility::look(
 	requireGrid(engine);
 	vector<string> sentences;
 	say(sentences, "gravityUpwards", warningOfGravity(engine.gravity));
-	say(sentences, "largeCells", warningOfCells(model.grid.cellSize, smallest));
+	say(sentences, "largeCells", warningOfCells(engine.grid->smallestCell(), smallest));
 	say(sentences, "units", warningOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
 	if (areFirst)
 		for (const auto& [about, warning] : warningsOfFirstStep(engine, points, cloud, model))

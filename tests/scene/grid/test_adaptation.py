@@ -285,3 +285,23 @@ print(json.dumps([volume(adapted), volume(fine), len(adapted), len(fine), len(co
 	volume, exact, points, most, fewest, sizes = results
 	assert volume == pytest.approx(exact, rel=1e-12)
 	assert fewest < points < most / 2 and sorted(map(int, sizes)) == [16, 32, 64]
+
+
+def test_large_points_are_split_where_cells_are_halved_three_times_at_once(yade):
+	"""Each small cell has points then, and domains tile; what is strongly stretched by a body stays whole, these are not."""
+	cells, clamped, mismatch = yade('''
+import json
+from yade import mpm
+O.materials.append(MpmElasticMat(young=1e6, poisson=0.3, density=1000, label='soil'))
+grid = MpmGrid(cellSize=0.5, adaptation=[MpmAdaptation(where='error')])
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (4, 4), (0, 4)]), MpmGrid(cellSize=0.5), 1, 'soil'))
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, gravity=(0, -10, 0), label='solver', verbosity=0)]
+O.dt = 1 / 10
+O.step()
+grid.refinements = [MpmRefinement(min=(1.6, 1.6, -inf), max=(2.4, 2.4, inf), halvings=3)]
+O.step()
+report = solver.report()
+print(json.dumps([list(report['cells'].values()), solver.clampedDomains, report['domainMismatch']]))
+''').result
+	assert cells == [256, 80, 28, 48] and clamped == 0 and mismatch < 1e-5

@@ -8,7 +8,7 @@ from conftest import Yade, root
 
 sys.path.insert(0, str(root / 'plugin/python/mpm/analysis'))
 from recovery import smoothed
-from refinement import errorOf
+from refinement import errorOf, errorOfFinest
 
 
 @pytest.mark.parametrize('order', [0.42, 0.5, 1, 2, 4, 9])
@@ -31,6 +31,21 @@ def test_estimate_at_its_edges():
 	assert errorOf(1, 2, 4) == (4, True, False) # no order: the change grows
 	assert errorOf(1, 1, 2) == (2, True, False)
 	assert not errorOf(3 - 0.2 * 2**0.4, 2.8, 3 - 0.2 * 0.5**0.4)[2]
+
+
+def test_estimate_of_the_finest():
+	"""Among the kept results of examples/discretisation, whose answers are known, the true error is more than twice the estimate in three of 69."""
+	sys.path[:0] = [str(root / 'examples/discretisation')]
+	import page
+	folder, ratios = str(root / 'examples/discretisation'), []
+	for ladder in page.ladders(folder).values():
+		for cells, (value, _) in ladder.items():
+			exact = page.answer(ladder, cells)
+			if cells % 4 or cells // 4 not in ladder or cells // 2 not in ladder or exact is None: continue
+			ratios.append(errorOfFinest(ladder[cells // 4][0], ladder[cells // 2][0], value)[0] / abs(value - exact))
+	assert len(ratios) >= 69 and sum(ratio < 0.5 for ratio in ratios) <= 3
+	assert errorOfFinest(1, 1, 1) == (0, 0) and errorOfFinest(1, 1, 2)[1] == np.inf
+	assert errorOfFinest(3, 2, 1.5) == (0.5, 0.5) and errorOfFinest(1, 2, 1.6) == (pytest.approx(0.2), pytest.approx(0.4))
 
 
 def cloud(dim, n=400, seed=7):
@@ -175,3 +190,51 @@ print(json.dumps(said))
 	assert set(refused) == set(expected)
 	for name, sentence in expected.items():
 		assert refused[name].startswith(sentence), refused[name]
+
+
+def test_until_accurate(yade):
+	"""Numbers that are known, and the column of section 4.1; it says what more would take, and refuses what it cannot judge."""
+	result = yade('''
+import json
+from scenes import *
+said = {}
+
+def refused(name, *arguments, **others):
+	try: mpm.untilAccurate(*arguments, **others)
+	except Exception as error: said[name] = type(error).__name__ + ' ' + str(error)
+	else: said[name] = ''
+
+first = mpm.untilAccurate(lambda k: 10 + 4 * 0.5**k, 0.05)
+late = mpm.untilAccurate(lambda k: 10 + 4 * 0.5**k, 1e-9, mostSeconds=1e-9)
+never = mpm.untilAccurate(lambda k: dict(load=10 + k, other=1), 0.5, 'load', mostSeconds=1e-9)
+
+def run(halvings):
+	column(4 * 2**halvings)
+	O.engines[0].verbosity = 0
+	O.run(40, wait=True)
+	return 50 - (mpm.arrays()['pos'] + mpm.arrays()['halfSize'])[:, 1].max()
+
+settlement = mpm.untilAccurate(run, 0.005)
+for name, arguments in dict(function=(1, 0.1), text=(run, '1'), zero=(run, 0), time=(run, 0.1, None, -1), names=(lambda k: dict(a=1, b=2), 0.1), quantity=(lambda k: 1, 0.1, 'load'),
+		fails=(lambda k: 1 / 0, 1), same=(lambda k: run(0), 0.1)).items():
+	refused(name, *arguments)
+print(json.dumps([first, late, never | dict(needed=str(never['needed'])), settlement, said]))
+''').result
+	first, late, never, settlement, said = result
+	assert first['isReached'] and first['halvings'] == 3 and first['value'] == 10.5 and first['error'] == pytest.approx(0.5)
+	assert not late['isReached'] and late['halvings'] == 2 and late['needed'] > 0 and len(late['seconds']) == 3
+	assert not never['isReached'] and never['needed'] == 'inf' and never['load'] == 12
+	assert settlement['isReached'] and abs(settlement['value'] - 25.9403541) <= settlement['error'] <= 0.005 * 26
+	expected = {
+	        'function': 'TypeError untilAccurate: run = 1 must be a function',
+	        'text': "TypeError untilAccurate: accuracy = '1' must be a number",
+	        'zero': 'ValueError untilAccurate: accuracy = 0 is not admitted',
+	        'time': 'ValueError untilAccurate: mostSeconds = -1 is not admitted',
+	        'names': "ValueError untilAccurate: quantity = None is not admitted: expected one of ['a', 'b']",
+	        'quantity': "ValueError untilAccurate: quantity = 'load' is not admitted: expected one of ['value']",
+	        'fails': 'RuntimeError untilAccurate: the run with 0 halvings fails: ZeroDivisionError',
+	        'same': 'ValueError untilAccurate: run(1) has '
+	}
+	assert set(said) == set(expected)
+	for name, sentence in expected.items():
+		assert said[name].startswith(sentence), said[name]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..base.messages import brief, isNumber
 from ..base.solver import noPoints, solverOf
+from ..library import engine
 from ..points.data import pointsOf
 from .recovery import smoothed
 from .refinement import errorOf
@@ -24,24 +25,27 @@ def stressError(solver=None):
 
 	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
 	:return: dict of ``error`` [-], ``points`` (N,) [Pa], the difference at each point (Frobenius' norm) in order of body id, which ``mpm.plot(found['points'])`` draws, ``place`` (3,) [m]
-		of the point with the largest, and ``cellSize`` [m]
+		of the point with the largest, and ``cellSize`` [m] of the largest cells
 	:raises TypeError: *solver* is no MpmImplicitEngine.
-	:raises ValueError: none or several of them among O.engines, cells of several sizes, no material points, no stress in them, or points spread over more cells than can be numbered (1e18).
+	:raises ValueError: none or several of them among O.engines, no material points, no stress in them, or points spread over more cells than can be numbered (1e18).
 	"""
 	solver = solverOf('stressError', solver)
 	data, _, material = pointsOf(solver)
 	if not len(data['id']): raise ValueError(noPoints('stressError', solver))
 	grid, volume = solver.grid, data['volume']
-	if grid.refinements or grid.adaptation: raise ValueError('stressError: MpmGrid.refinements, adaptation: it is for equal cells; mpm.discretisationError may be used')
 	tensors = data['stress'].reshape(-1, 9)
 	norm = math.sqrt(volume @ (tensors**2).sum(axis=1))
 	if norm == 0: raise ValueError('stressError: no point has any stress; run the analysis first')
-	places = (data['pos'] - np.array(grid.origin))[:, :grid.dim] / grid.cellSize
-	try: scatter = np.linalg.norm(tensors - smoothed(places, material, volume, tensors), axis=1)
-	except ValueError as error: raise ValueError(f'stressError: {error}') from None
+	places, scatter = (data['pos'] - np.array(grid.origin))[:, :grid.dim], np.zeros(len(volume))
+	sizes = np.frombuffer(engine.cellSizes(grid, np.ascontiguousarray(data['pos'])))
+	for size in np.unique(sizes): # smooth over nodes of the cells in which a point is
+		try: smooth = smoothed(places / size, material, volume, tensors)
+		except ValueError as error: raise ValueError(f'stressError: {error}') from None
+		scatter[sizes == size] = np.linalg.norm(tensors - smooth, axis=1)[sizes == size]
 	worst = data['pos'][scatter.argmax()]
 	found = dict(error=math.sqrt(volume @ scatter**2) / norm, points=scatter, place=worst, cellSize=grid.cellSize)
-	print(f"stress: wrong by about {100 * found['error']:.2g} % (root mean square) with cells of {grid.cellSize:g} m, up to twice or down to half of that; most, by {scatter.max():.3g} Pa, at ({', '.join(f'{x:.4g}' for x in worst)})")
+	cells = f'{sizes.max():g} m' if sizes.min() == sizes.max() else f'{sizes.min():g} to {sizes.max():g} m'
+	print(f"stress: wrong by about {100 * found['error']:.2g} % (root mean square) with cells of {cells}, up to twice or down to half of that; most, by {scatter.max():.3g} Pa, at ({', '.join(f'{x:.4g}' for x in worst)})")
 	return found
 
 
