@@ -88,6 +88,14 @@ def test_otherVirtualFunctions(yade, complete, libraries):
 	assert re.search(r'has other virtual functions in Shape \(2[89] entries instead of 2[89]\), Sphere \(2[89] entries instead of 2[89]\)\.', explanation(run))
 
 
+def test_processorWithoutAvx2(yade, complete, libraries):
+	"""YADE starts without the plugin, and says how to build one for this processor."""
+	shutil.copy(build / 'tests/old_processor_guard.so', libraries / 'mpm/mpm_guard.so')
+	run = yade(probe)
+	assert run.result == withoutPlugin
+	assert 'this processor has no AVX2, which this build needs; build it on this computer, or with cmake -DMPM_PORTABLE=ON' in explanation(run)
+
+
 def test_otherPlaceOfAVirtualFunction(yade, complete):
 	"""A table of the same size with another function in a place is imitated by a function with another name there."""
 	other = compiled(
