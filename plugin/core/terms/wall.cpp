@@ -35,21 +35,22 @@ template <int Dim>
 WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, const Division& division)
         : wall_(wall)
 {
-	std::vector<char> isConstrained(basis.cells.size(), 0);
-	std::vector<int>  cells;
+	const auto&       leaves = basis.populatedLeaves();
+	std::vector<char> isConstrained(leaves.size(), 0);
+	std::vector<int>  leafOf;
 	for (int i = 0; i < int(wall.surface.pieces.size()); ++i) {
 		const Vec<Dim> centre = centreOf(wall.surface, wall.surface.pieces[i]),
 		               normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
 		const auto at         = attach(centre, basis, grid, wall.layer);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
 		constrainedPieces_.push_back({ i, *at, aroundAxis(centre[0], grid) * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
-		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell), 0, std::max(0, wall.layer))));
-		isConstrained[cells.back()] = 1;
+		leafOf.push_back(position(leaves, Grid<Dim>::key(grid.first(at->cell * (1 << at->level)), at->level, std::max(0, wall.layer))));
+		isConstrained[leafOf.back()] = 1;
 	}
 	auto moduli = cellModuli(isConstrained, basis, stiffnessOf, grid);
-	division.complete(basis.cells, moduli);
+	division.complete(leaves, moduli);
 	for (std::size_t g = 0; g < constrainedPieces_.size(); ++g)
-		constrainedPieces_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
+		constrainedPieces_[g].stiffness = wall.penalty * moduli[leafOf[g]] / grid.size(constrainedPieces_[g].at.level);
 }
 
 /// On the body.

@@ -11,7 +11,7 @@ namespace gimpm {
 
 /// A wall at the start of a step, and what it has been acting with.
 template <int Dim> struct Wall {
-	/// Makes the pieces so small that the force on each may act at its centre.
+	/// Makes the pieces so small that the force on each may act at its centre; `cellSize` of the smallest cells.
 	Wall(Surface<Dim> surface, double cellSize);
 
 	Surface<Dim> surface;
@@ -27,7 +27,7 @@ template <int Dim> struct Wall {
 };
 
 /// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where
-/// P is the projection on what is held, E the modulus of the soil in the cell and t the traction at the start of the
+/// P is the projection on what is held, E the modulus of the soil in the cell, h its size and t the traction at the start of the
 /// step: the step begins in equilibrium, and what the wall has given way by is in proportion to what it bears. Centres
 /// where the grid holds no material do nothing, and forget.
 template <int Dim> class WallForce : public Term<Dim> {

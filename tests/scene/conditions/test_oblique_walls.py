@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Walls off the lines of the grid, MpmBoundary.surface: what they hold, how they move, that they continue, and what is refused about them."""
 import numpy as np
+import pytest
 from conftest import outcomesOf
 
 block = '''
@@ -8,11 +9,13 @@ import json
 import numpy as np
 from yade import mpm, pack
 
-def block(dim=2, push=0.1, penalty=100, **keywords):
-	"""2 x 2 [x 2] m, nu = 0, E = 1 MPa, without weight, between walls off the lines of the grid, of which the upper one moves down."""
+def block(dim=2, push=0.1, penalty=100, halvings=0, adapts=False, **keywords):
+	"""2 x 2 [x 2] m, nu = 0, E = 1 MPa, without weight, between walls off the lines of the grid, of which the upper one moves down; with cells that are halved in a corner."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=1, label='soil'))
 	grid = MpmGrid(cellSize=0.5, dim=dim)
+	if halvings: grid.refinements = [MpmRefinement(min=(1.4, 1.4, 1.4 if dim == 3 else -inf), halvings=halvings)]
+	if adapts: grid.adaptation = [MpmAdaptation(where='error', halvings=2)]
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (2, 2, 2 if dim == 3 else 1)), grid, 2, 'soil'))
 	grid.origin = (-0.17, -0.2, 0)  # after the points are in their places
 	a, b = -0.3, 2.3
@@ -33,24 +36,25 @@ def test_a_wall_that_is_pushed_in(yade):
 	"""Cauchy stress E ln(l) / l at the stretch l; what pushes is what the foot bears."""
 	results = yade(block + '''
 found = []
-for dim in 2, 3:
-	block(dim)
+for dim, halvings in (2, 0), (3, 0), (2, 2), (3, 1):
+	block(dim, halvings=halvings)
 	O.run(4, wait=True)
 	data = solver.plotData()
 	found.append([mpm.arrays()['stress'][:, 1, 1].tolist(), data['reaction3_y'], data['reaction0_y'], data['reaction1_x'], [v[1] for v in solver.boundaries[3].surface.vertices]])
 print(json.dumps(found))
 ''').result
 	exact = 1e6 * np.log(0.9) / 0.9
-	for dim, (stress, lid, foot, side, heights) in zip((2, 3), results):
+	for dim, (stress, lid, foot, side, heights) in zip((2, 3, 2, 3), results):
 		area = 2**(dim - 1)
 		assert abs(np.mean(stress) / exact - 1) < 0.01 and np.ptp(stress) < -0.03 * exact
 		assert abs(lid / (area * exact) - 1) < 0.012 and abs(foot / -lid - 1) < 1e-8 and abs(side / lid) < 1e-3
 		assert max(abs(y - 1.8) for y in heights) < 1e-12
 
 
-def test_a_saved_run_continues_bit_for_bit(yade):
-	results = yade(block + '''
-block()
+@pytest.mark.parametrize('cells', ['', 'halvings=2', 'adapts=True'])
+def test_a_saved_run_continues_bit_for_bit(yade, cells):
+	results = yade(block + f'''
+block({cells})
 O.run(2, wait=True)
 mpm.save('between.xml.gz')
 O.run(2, wait=True)

@@ -82,7 +82,7 @@ public:
 	bool   goesOn() const override { return !velocity.isZero(0); }
 	bool   countsSeconds(const Scene&) const override { return !velocity.isZero(0) || motion; }
 	void   requireFitting(const Analysis&, const string& name) const override;
-	string needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
+	string needsUntiedNodes(const string& name) const override { return surface ? name + ".surface" : ""; }
 	string needsOneBody(const string& name) const override
 	{
 		return surface && body.empty() ? name + ".surface without the body that it constrains (MpmBoundary.body)" : "";

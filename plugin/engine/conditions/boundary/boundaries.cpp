@@ -27,7 +27,7 @@ template <int Dim> void Boundaries<Dim>::hold(gimpm::Model<Dim>& model)
 	model.boundary = gimpm::Boundary<Dim>(boxes);
 	for (size_t b = 0; b < boundaries.size(); ++b)
 		if (boundaries[b]->surface) {
-			walls[int(b)]        = wallOf<Dim>(*boundaries[b], "boundaries[" + std::to_string(b) + "]", model);
+			walls[int(b)]        = wallOf<Dim>(*boundaries[b], "boundaries[" + std::to_string(b) + "]", model, analysis.grid->smallestCell());
 			walls[int(b)]->layer = boxes[b].layer;
 		}
 	model.walls = walls;

@@ -29,7 +29,7 @@ namespace {
 	}
 }
 
-template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& boundary, const string& name, const gimpm::Model<Dim>& model)
+template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& boundary, const string& name, const gimpm::Model<Dim>& model, Real smallestCell)
 {
 	const auto& grid = model.grid;
 	if (model.ghost.factor == 0)
@@ -39,7 +39,7 @@ template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& b
 		          "ghost.factor=0.");
 	requireFitting<Dim>(boundary, name);
 	requireWithinPeriod<Dim>(boundary, name, grid);
-	const auto wall = std::make_shared<gimpm::Wall<Dim>>(coreSurface<Dim>(*boundary.surface), grid.cellSize);
+	const auto wall = std::make_shared<gimpm::Wall<Dim>>(coreSurface<Dim>(*boundary.surface), smallestCell);
 	wall->penalty   = boundary.penalty;
 	for (int axis = 0; axis < Dim; ++axis)
 		wall->fixed[axis] = boundary.fixes(axis);
@@ -47,14 +47,14 @@ template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& b
 	if (boundary.surface->initialVertices.empty() || boundary.tractions.empty()) return wall;
 	if (boundary.tractions.size() != wall->tractions.size())
 		throw std::invalid_argument(
-		        name + ".surface has " + std::to_string(wall->tractions.size()) + " pieces of a size for cells of " + std::to_string(grid.cellSize)
+		        name + ".surface has " + std::to_string(wall->tractions.size()) + " pieces of a size for cells of " + std::to_string(smallestCell)
 		        + " m, but what it bears is known of " + std::to_string(boundary.tractions.size())
 		        + ": after a change of the grid or of the pieces give it a new MpmSurface, which bears nothing at first.");
 	wall->tractions = inDimension<Dim>(boundary.tractions);
 	return wall;
 }
 
-template std::shared_ptr<gimpm::Wall<2>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<2>&);
-template std::shared_ptr<gimpm::Wall<3>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<3>&);
+template std::shared_ptr<gimpm::Wall<2>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<2>&, Real);
+template std::shared_ptr<gimpm::Wall<3>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<3>&, Real);
 
 } // namespace yade
