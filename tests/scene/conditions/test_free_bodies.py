@@ -9,13 +9,14 @@ import json
 import numpy as np
 from yade import mpm, pack, utils
 
-def soil(dim=2, h=0.25, size=(2, 1), density=1500, young=1e6, material=None, engine=MpmImplicitEngine, held=True, axis=False, g=9.81, dt=0.1, low=0, **settings):
+def soil(dim=2, h=0.25, size=(2, 1), density=1500, young=1e6, material=None, engine=MpmImplicitEngine, held=True, axis=False, g=9.81, dt=0.1, low=0, halved=False, **settings):
 	"""A block that stands on its base; its points have groupMask 2, the bodies beside it 1."""
 	O.reset()
 	O.materials.append(material or MpmElasticMat(young=young, poisson=0.3, density=density))
 	O.materials[0].label = 'soil'
 	O.materials.append(FrictMat(young=1e9, poisson=0.3, frictionAngle=0.3, density=2600, label='rigid'))
 	grid = MpmGrid(cellSize=h, dim=dim, axisymmetric=axis)
+	if halved: grid.refinements = [MpmRefinement(max=(0.5 * size[0], inf, inf))] # the body stands on cells of two sizes
 	O.bodies.append(mpm.fill(pack.inAlignedBox((low, 0, 0 if dim == 3 else -1), tuple(size) + ((1, ) if dim == 2 else ())), grid, 2, 'soil'))
 	for body in O.bodies: body.groupMask = 2
 	base, down = [inf] * 3, [0, 0, 0]
@@ -59,6 +60,33 @@ print(json.dumps(found))
 		assert abs(force - 1) < 1e-8 and max(map(abs, torque)) < 1e-5 and -0.05 < sunk < 0 and iterations < 20
 	assert results[1][2] < -0.03
 	assert all(abs(force - 1) < 1e-8 for force in results[4:])
+
+
+def test_cells_of_several_sizes(yade):
+	"""A body that stands on two of them, and one that meets two."""
+	weights, momenta = yade(scene + '''
+found = [[], []]
+for dim, axis, at, size, mass in (2, False, (1.03, 1.2, 0), (0.4, 0.2, 3), 2600 * 4 * 0.4 * 0.2), (2, True, (0, 1.2, 0), (0.4, 0.2, 0.1), 2600 * pi * 0.4**2 * 0.4), (3, False, (0.52, 0.47, 0.7), (0.3, 0.3, 0.2), 2600 * 8 * 0.3 * 0.3 * 0.2):
+	solver = soil(dim, size=(2, 1) if dim == 2 else (1, 1, 0.5), axis=axis, halved=True)
+	box(at, size)
+	O.run(4, wait=True)
+	found[0].append([solver.contacts[0].forces[0][dim - 1] / (0.4 * mass * 9.81), len(solver.report()['cells'])])
+for dim in 2, 3:
+	solver = soil(dim, size=(1, 0.5) if dim == 2 else (1, 1, 0.5), g=0, held=False, engine=MpmDynamicEngine, dt=2e-3, halved=True)
+	b = ball((0.45, 0.72 if dim == 2 else 0.55, 0.72 if dim == 3 else 0), 0.2)
+	b.state.vel = [(0.3, -1, 0), (0.3, 0, -1)][dim - 2]
+	mass = b.state.mass * (1 if dim == 3 else 3 / 0.8)
+	before, off = mass * np.array(b.state.vel) + momentum(), 0
+	for step in range(30):
+		O.step()
+		off = max(off, np.abs(mass * np.array(b.state.vel) + momentum() - before).max() / mass)
+	found[1].append([off, b.state.vel[dim - 1]])
+print(json.dumps(found))
+''').result
+	for force, sizes in weights:
+		assert abs(force - 1) < 1e-8 and sizes == 2
+	for off, velocity in momenta:
+		assert off < 1e-9 and velocity > -0.9
 
 
 def test_momentum_is_kept_to_round_off(yade):
@@ -232,7 +260,6 @@ def test_what_cannot_be_solved_is_refused_by_name(yade):
 	        's = soil(); b = O.bodies[O.bodies.append(utils.facet([(0, 1, -1), (2, 1, -1), (1, 1, 1)], material="rigid", fixed=False))]; O.step()': ['has no mass in the plane', 'Spheres and Boxes'],
 	        's = soil(axis=True); b = box((0, 1.2, 0), (0.4, 0.2, 0.4)); b.state.vel = (1, 0, 0); O.step()': ['only movement along it'],
 	        's = soil(); b = box((1, 9, 0), (0.4, 0.2, 0.5)); O.step()': ['finds no balance with the soil', 'blockedDOFs'],
-	        's = soil(); s.grid.refinements = [MpmRefinement(min=(-inf, -inf, -inf), max=(inf, 0.5, inf), halvings=1)]; b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); O.step()': ['implicit=True'],
 	        's = soil(contacts=[MpmContact(friction=0.3, mask=1)]); b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); O.engines = [ForceResetter()] + O.engines + [NewtonIntegrator(mask=1)]; O.dt = 1e-4; O.step()':
 	                ['MpmContact.implicit=True', 'dim=3'],
 	}

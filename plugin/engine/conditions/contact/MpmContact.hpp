@@ -109,7 +109,7 @@ public:
 	vector<Vector3r> edges(const Analysis&, const Scene&, Real spacing) const override;
 
 	bool        goesOn() const override { return true; }
-	string      needsEqualCells(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
+	string      needsUntiedNodes(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	string      needsOneBody(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	bool        countsSeconds(const Scene&) const override; // true where a body moves
 	bool        mayHold(int, Real, Real) const override { return true; }
