@@ -86,6 +86,9 @@ private:
 	std::array<std::vector<Key>, Grid<Dim>::mostLevel + 1>   cells_;  // other halved cells by level, sorted
 };
 
+/// Size of the largest cells [m].
+template <int Dim> double largestCell(const Grid<Dim>& grid) { return grid.size(grid.refinement ? grid.refinement->largest() : 0); }
+
 /// Half of the cell that a position lies in [m]: domains of points there are no larger.
 template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& position)
 {

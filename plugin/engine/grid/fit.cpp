@@ -44,7 +44,7 @@ namespace {
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis, gimpm::DomainRule rule)
 	{
 		const bool onGrid   = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
-		const Real cellSize = grid.size(grid.refinement ? grid.refinement->largest() : 0);
+		const Real cellSize = gimpm::largestCell(grid);
 		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * cellSize * (1 + 1e-9);
 		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit, rule);
 		if (onGrid && fits) return;

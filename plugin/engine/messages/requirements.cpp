@@ -127,8 +127,6 @@ static void requireOneBody(const Analysis& engine)
 		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
 	if (meets.empty()) return;
 	if (engine.grid && !engine.grid->period.isZero(0)) what = "MpmGrid.period, a grid that repeats itself";
-	else if (engine.grid && !engine.grid->hasEqualCells())
-		what = engine.grid->severalSizes();
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsOneBody(listed.name()); !own.empty()) what = own;
 	if (!what.empty()) throw std::invalid_argument(meets + " cannot go with " + what + " yet; leave one of the two out.");

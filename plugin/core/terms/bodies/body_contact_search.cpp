@@ -118,7 +118,8 @@ template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, c
 	}
 }
 
-/// Makes the law of each, with the smaller modulus of both, by the master's cell at the nearest piece.
+/// Makes the law of each, with the smaller ratio of modulus and cell size of both, by the master's cell at the nearest
+/// piece.
 template <int Dim> void BodyContact<Dim>::makeLaws(const StepContext<Dim>& step)
 {
 	std::vector<char>               isAskedFor(step.basis.populatedLeaves().size(), 0);
@@ -141,7 +142,8 @@ template <int Dim> void BodyContact<Dim>::makeLaws(const StepContext<Dim>& step)
 	for (std::size_t i = 0; i < contactPoints_.size(); ++i) {
 		ContactPoint& point   = contactPoints_[i];
 		const auto&   meeting = meetingOf(point);
-		const double  penalty = meeting.stiffness * std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]) * point.area / cellSize_;
+		const auto    ratio   = [&](int leaf) { return moduli[leaf] / step.grid.size(Grid<Dim>::level(step.basis.populatedLeaves()[leaf])); };
+		const double  penalty = meeting.stiffness * std::min(ratio(leaves[i][0]), ratio(leaves[i][1])) * point.area;
 		point.law             = { penalty, penalty / slipSoftnessOfBodies, meeting.frictionCoefficient, meeting.adhesion * point.area };
 	}
 }

@@ -33,7 +33,7 @@ namespace {
 		return pairs;
 	}
 
-	// Lower and upper ends of the domain of a point, in cells.
+	// Lower and upper ends of the domain of a point, in cells of the largest size.
 	template <int Dim> struct Box {
 		std::int64_t            body;
 		std::array<double, Dim> from, to;
@@ -49,7 +49,7 @@ namespace {
 			for (int axis = 0; axis < Dim; ++axis) {
 				const Real x    = (isNow ? point.state->pos : point.state->refPos)[axis] - model.grid.origin[axis];
 				const Real half = (isNow ? point.shape->halfSize : point.shape->halfSize0)[axis];
-				box.from[axis] = (x - half) / model.grid.cellSize, box.to[axis] = (x + half) / model.grid.cellSize;
+				box.from[axis] = (x - half) / gimpm::largestCell(model.grid), box.to[axis] = (x + half) / gimpm::largestCell(model.grid);
 			}
 			own.push_back(box);
 		}
@@ -141,8 +141,8 @@ void requireNonePast(const vector<MaterialPoint>& points, const gimpm::Model<Dim
 		if (!at || wereJoined(past, points, model)) continue;
 		const auto name = [&](int body) { return "'" + analysis.grid->bodies[body]->name + "'"; };
 		throw std::invalid_argument(gimpm::sentence(
-		        "contacts: bodies of points ", name(past.one), " and ", name(past.other), " share nodes at (", model.grid.nodePosition(*at).transpose(),
-		        ") past ", name(past.between),
+		        "contacts: bodies of points ", name(past.one), " and ", name(past.other), " share nodes at (",
+		        (model.grid.origin + gimpm::largestCell(model.grid) * at->template cast<double>()).transpose(), ") past ", name(past.between),
 		        ", which is thinner there than two cells, and force would go from one to the other around it. Give them an MpmBodyContact(between=(",
 		        name(past.one), ", ", name(past.other), "), friction=...), or smaller cells."));
 	}

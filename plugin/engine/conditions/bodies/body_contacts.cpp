@@ -76,12 +76,12 @@ namespace {
 		bool operator==(const BodyInCell& other) const { return cell == other.cell && body == other.body; }
 	};
 
-	// Bodies with points in a cell, by cell, for the points of all processes.
+	// Bodies with points in a cell of the largest size, by cell, for the points of all processes.
 	template <int Dim> std::unordered_map<gimpm::Key, std::set<int>> bodiesByCell(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
 	{
 		vector<BodyInCell> own;
 		for (const MaterialPoint& point : points) {
-			const gimpm::Vec<Dim> x = (point.state->pos.template head<Dim>() - model.grid.origin) / model.grid.cellSize;
+			const gimpm::Vec<Dim> x = (point.state->pos.template head<Dim>() - model.grid.origin) / gimpm::largestCell(model.grid);
 			own.push_back({ gimpm::Grid<Dim>::key(x.array().floor().template cast<int>()), point.state->body });
 		}
 		std::sort(own.begin(), own.end());
@@ -109,13 +109,13 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 					if (pairs.count({ one, other }))
 						throw std::invalid_argument(gimpm::sentence(
 						        "contacts: bodies of points ", nameOf(one), " and ", nameOf(other), " are in neighbouring cells at (",
-						        model.grid.nodePosition(cell).transpose(),
+						        (model.grid.origin + gimpm::largestCell(model.grid) * cell.template cast<double>()).transpose(),
 						        ") and have no MpmBodyContact between them; they cannot stick, as a contact of one of them, or a condition that names it (body), parts it from what the other one sticks to. Give them one, with friction."));
 		}
 }
 
 // Refuses a body without a surface where no other is in contact with it.
-template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int number, const gimpm::Grid<Dim>& lattice) const
+template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int number) const
 {
 	const MpmBody&          from = *grid.bodies[number];
 	gimpm::MeetingBody<Dim> body { from.name, layers[number + 1], {} };
@@ -130,8 +130,8 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 		body.surface.pieces.emplace_back();
 		std::copy(from.pieces[i].begin(), from.pieces[i].end(), body.surface.pieces.back().begin());
 	}
-	if (from.initialVertices.empty()) body.divideRectangles(lattice.cellSize);
-	body.refine(lattice.cellSize);
+	if (from.initialVertices.empty()) body.divideRectangles(grid.smallestCell());
+	body.refine(grid.smallestCell());
 	return body;
 }
 
@@ -156,7 +156,7 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 	requireNoneBetween(around.points, model);
 	requireNonePast(around.points, model, analysis, layers);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
-		system->bodies.push_back(coreBody(int(b), model.grid));
+		system->bodies.push_back(coreBody(int(b)));
 	for (const auto& contact : given) {
 		contact->slave = slaveOf(*contact, around, model);
 		system->meetings.push_back(coreMeeting(*contact));

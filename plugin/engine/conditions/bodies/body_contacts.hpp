@@ -22,7 +22,7 @@ public:
 	void reach(const StepOutcome<Dim>&) override;
 
 private:
-	gimpm::MeetingBody<Dim>       coreBody(int number, const gimpm::Grid<Dim>&) const;
+	gimpm::MeetingBody<Dim>       coreBody(int number) const;
 	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&) const;
 	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
 	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
