@@ -51,7 +51,7 @@ private:
 /// The variables of a law with their values. Number k is that of the law's `variables`.
 class TensorState {
 public:
-	static constexpr int most = 34; ///< numbers of one law
+	static constexpr int most = 54; ///< numbers of one law
 
 	TensorState() = default;
 	template <std::size_t Count> explicit TensorState(const std::array<TensorVariable, Count>& variables) : variables_(variables.data()), count_(Count) { }

@@ -15,7 +15,7 @@ constexpr int mandelOf(int i) { return i < 4 ? i : 9 - i; }
 
 /// Internal variables of such a law at a point: tensors, which turn with the material, and scalars.
 struct UserState {
-	static constexpr int mostTensors = 3, mostScalars = 20;
+	static constexpr int mostTensors = 6, mostScalars = 40;
 	/// A law that takes more parameters or scalars than there are has no finite answer then, and harms nothing.
 	static constexpr int beyond = 64;
 
@@ -157,10 +157,13 @@ private:
 	}
 };
 
-inline constexpr const char* namesOfTensors[UserState::mostTensors] = { "stateTensor1", "stateTensor2", "stateTensor3" };
+inline constexpr const char* namesOfTensors[UserState::mostTensors]
+        = { "stateTensor1", "stateTensor2", "stateTensor3", "stateTensor4", "stateTensor5", "stateTensor6" };
 inline constexpr const char* namesOfStates[UserState::mostScalars]
         = { "state1",  "state2",  "state3",  "state4",  "state5",  "state6",  "state7",  "state8",  "state9",  "state10",
-	    "state11", "state12", "state13", "state14", "state15", "state16", "state17", "state18", "state19", "state20" };
+	    "state11", "state12", "state13", "state14", "state15", "state16", "state17", "state18", "state19", "state20",
+	    "state21", "state22", "state23", "state24", "state25", "state26", "state27", "state28", "state29", "state30",
+	    "state31", "state32", "state33", "state34", "state35", "state36", "state37", "state38", "state39", "state40" };
 
 template <int Tensors, int Scalars>
 constexpr std::array<TensorVariable, UserLaw<Tensors, Scalars>::ofAll + Tensors + Scalars> UserLaw<Tensors, Scalars>::makeVariables()

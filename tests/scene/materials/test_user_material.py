@@ -96,6 +96,28 @@ goesOn(theirs)
 	)
 
 
+def test_tensors_among_its_state_variables_turn_with_the_points(door):
+	"""As columns of their own, whose sizes stay while points turn; they are named where there are none."""
+	door(
+	        setting + '''
+states = [0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0]
+law = lambda **tensors: MpmUserMat(library=os.environ['UMAT'], parameters=[20e6, .3, 30e3, 1], stateVariables=states, **tensors, **elastic)
+solver = pressed(law(stressTensors=[2], strainTensors=[8]))
+O.run(5, wait=True)
+data = mpm.arrays()
+parts = lambda k: [data[f'stateTensor{k}{axes}'] for axes in ('XX', 'YY', 'ZZ', 'XY', 'YZ', 'ZX')]
+for k, squares in (1, 1), (2, 2 * .5**2 * 2**2): # of the second, one shear component of 2 like a strain: twice 1
+	normal, shear = parts(k)[:3], parts(k)[3:]
+	assert np.allclose(sum(x**2 for x in normal) + 2 * sum(x**2 for x in shear), squares, rtol=1e-9), k
+assert np.abs(parts(1)[3]).max() > 1e-2 and np.ptp(parts(1)[3]) > 1e-3
+for tensors, said in (dict(stressTensors=[9]), 'have 9, and stateVariables 13'), (dict(stressTensors=[2], strainTensors=[7]), 'have 7 and 2'):
+	try: pressed(law(**tensors)); O.step()
+	except Exception as error: assert said in str(error) and 'at least six apart' in str(error), error
+	else: raise AssertionError(tensors)
+'''
+	)
+
+
 @pytest.fixture(scope='module')
 def told(tmp_path_factory):
 	folder = tmp_path_factory.mktemp('told')
@@ -162,10 +184,10 @@ def tried(**attributes):
 	return 'no error'
 few = tried(parameters=[20e6])
 assert 'no stress' in few, few
-print(json.dumps([tried(library='./none.so'), tried(function='vumat'), tried(relaxationTime=1.), tried(stateVariables=[0.] * 21), tried(library='')]))
+print(json.dumps([tried(library='./none.so'), tried(function='vumat'), tried(relaxationTime=1.), tried(stateVariables=[0.] * 41), tried(library='')]))
 '''
 	).result
-	for text, words in zip(said, [('none.so', 'opened'), ('vumat', 'nm -D'), ('relaxationTime', ), ('stateVariables', '20'), ('library', 'path')]):
+	for text, words in zip(said, [('none.so', 'opened'), ('vumat', 'nm -D'), ('relaxationTime', ), ('stateVariables', '40'), ('library', 'path')]):
 		assert all(word in text for word in words), (text, words)
 
 

@@ -71,12 +71,39 @@ namespace {
 		return known;
 	}
 
+	gimpm::UmatTensors tensorsOf(const MpmUserMat& m)
+	{
+		gimpm::UmatTensors tensors { m.stressTensors, m.strainTensors };
+		for (auto* numbers : { &tensors.likeStress, &tensors.likeStrain })
+			for (int& number : *numbers)
+				--number; // from 0 on
+		return tensors;
+	}
+
+	// Each is there, and none begins within another.
+	void requireTensors(const MpmUserMat& m)
+	{
+		const string expected = "expected numbers of the first of six state variables of each tensor, from 1 on, at least six apart.";
+		vector<int>  begins   = m.stressTensors;
+		begins.insert(begins.end(), m.strainTensors.begin(), m.strainTensors.end());
+		std::sort(begins.begin(), begins.end());
+		for (size_t k = 0; k < begins.size(); ++k) {
+			const string number = std::to_string(begins[k]), first = "MpmUserMat.stressTensors and strainTensors have " + number;
+			if (begins[k] + 5 > int(m.stateVariables.size()))
+				throw std::invalid_argument(
+				        first + ", and stateVariables " + std::to_string(m.stateVariables.size()) + " numbers: " + expected);
+			if (k > 0 && begins[k] < begins[k - 1] + 6)
+				throw std::invalid_argument(first + " and " + std::to_string(begins[k - 1]) + ": " + expected);
+		}
+	}
+
 	std::shared_ptr<const gimpm::UserDoor> doorTo(const MpmUserMat& m)
 	{
 		const Opened& library    = opened(m.library, m.function);
 		const auto    oneAtATime = m.reentrant ? nullptr : library.oneAtATime;
 		if (!library.mfront || !library.reason.empty())
-			return std::make_shared<const gimpm::UmatDoor>(library.umat, m.parameters, m.stateVariables, oneAtATime, m.label, m.function);
+			return std::make_shared<const gimpm::UmatDoor>(
+			        library.umat, m.parameters, m.stateVariables, oneAtATime, m.label, m.function, tensorsOf(m));
 		const MfrontDescription& law = *library.mfront;
 		gimpm::MfrontGiven       given { law.call, m.parameters, law.variables, m.stateVariables, -1, law.external, m.density, oneAtATime, m.function };
 		given.first.resize(law.numbers(), 0);
@@ -89,15 +116,22 @@ namespace {
 	{
 		const auto door   = std::const_pointer_cast<gimpm::UserDoor>(doorTo(m));
 		door->elastic     = gimpm::Hencky(m.young, m.poisson);
-		const int scalars = door->scalars(), fewest = 6;
+		const int scalars = door->scalars(), fewest = 6, some = 20;
 		switch (door->tensors()) { // room for as many numbers as a law may remember
 			case 0:
 				return scalars == 0         ? gimpm::Law(gimpm::UserLaw<0, 0>(door))
 				        : scalars <= fewest ? gimpm::Law(gimpm::UserLaw<0, 6>(door))
-				                            : gimpm::Law(gimpm::UserLaw<0, 20>(door));
-			case 1: return scalars <= fewest ? gimpm::Law(gimpm::UserLaw<1, 6>(door)) : gimpm::Law(gimpm::UserLaw<1, 14>(door));
-			case 2: return gimpm::UserLaw<2, 8>(door);
-			default: return gimpm::UserLaw<3, 2>(door);
+				        : scalars <= some   ? gimpm::Law(gimpm::UserLaw<0, 20>(door))
+				                            : gimpm::Law(gimpm::UserLaw<0, 40>(door));
+			case 1:
+				return scalars <= fewest      ? gimpm::Law(gimpm::UserLaw<1, 6>(door))
+				        : scalars <= some - 6 ? gimpm::Law(gimpm::UserLaw<1, 14>(door))
+				                              : gimpm::Law(gimpm::UserLaw<1, 34>(door));
+			case 2: return scalars <= some - 12 ? gimpm::Law(gimpm::UserLaw<2, 8>(door)) : gimpm::Law(gimpm::UserLaw<2, 28>(door));
+			case 3: return scalars <= some - 18 ? gimpm::Law(gimpm::UserLaw<3, 2>(door)) : gimpm::Law(gimpm::UserLaw<3, 22>(door));
+			case 4: return gimpm::UserLaw<4, 16>(door);
+			case 5: return gimpm::UserLaw<5, 10>(door);
+			default: return gimpm::UserLaw<6, 4>(door);
 		}
 	}
 
@@ -154,6 +188,11 @@ void MpmUserMat::requireAdmissible() const
 		throw std::invalid_argument("MpmUserMat: library = '" + library + "', function = '" + function + "' is not admitted: " + door.reason + ".");
 	if (door.isOfMfront) requireNoParameterFile(function);
 	if (door.mfront) requireNumbers(*this, *door.mfront);
+	if (door.mfront && !(stressTensors.empty() && strainTensors.empty()))
+		throw std::invalid_argument(
+		        "MpmUserMat.stressTensors and strainTensors are not admitted for the law '" + function
+		        + "' of MFront, which names its tensors itself: leave them out.");
+	if (!door.mfront) requireTensors(*this);
 }
 
 static const RegisteredLaw<MpmUserMat> lawOfMpmUserMat(lawOfUser);

@@ -10,9 +10,10 @@ public:
 	string       function = "umat_";
 	vector<Real> parameters;
 	vector<Real> stateVariables;
+	vector<int>  stressTensors, strainTensors;
 	bool         reentrant = false;
 
-	static constexpr size_t mostStates = 20;
+	static constexpr size_t mostStates = 40;
 
 	YADE_API_NAME(MpmUserMat)
 	static const char* doc()
@@ -34,10 +35,17 @@ public:
 			  return std::all_of(all.begin(), all.end(), [](Real x) { return std::isfinite(x); });
 		  }));
 		v("stateVariables", &M::stateVariables, 0,
-		  "Values at first of its state variables (STATEV), as many as it has, at most 20: columns state1, state2 ... of mpm.arrays. MFront's: none for zeros.",
-		  admitting("at most 20 finite numbers", [](const vector<Real>& all) {
+		  "Values at first of its state variables (STATEV), as many as it has, at most 40: columns state1, state2 ... of mpm.arrays. MFront's: none for zeros.",
+		  admitting("at most 40 finite numbers", [](const vector<Real>& all) {
 			  return all.size() <= mostStates && std::all_of(all.begin(), all.end(), [](Real x) { return std::isfinite(x); });
 		  }));
+		const auto numbers = admitting("numbers of state variables, from 1 on, each the first of six", [](const vector<int>& all) {
+			return std::all_of(all.begin(), all.end(), [](int k) { return k >= 1 && size_t(k) + 5 <= mostStates; });
+		});
+		v("stressTensors", &M::stressTensors, 0,
+		  "Numbers, from 1, of state variables of a UMAT with which symmetric tensors of six numbers begin, as a back stress: they turn with the material.",
+		  numbers);
+		v("strainTensors", &M::strainTensors, 0, "The same, of tensors with twice the shear components, as an intergranular strain.", numbers);
 		v("reentrant", &M::reentrant, 0,
 		  "True: several threads may call it at a time; if it keeps variables from call to call (SAVE, COMMON), they may not.");
 	}
