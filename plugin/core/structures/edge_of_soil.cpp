@@ -26,7 +26,7 @@ EdgeOfSoil::EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const P
 	std::sort(points_.begin(), points_.end(), [&](int p, int q) { return cloud.position[p][axis_] < cloud.position[q][axis_]; });
 }
 
-std::vector<int> EdgeOfSoil::around(const Vec<2>& position, const BesideBeam& isBeside) const
+std::vector<int> EdgeOfSoil::around(const Vec<2>& position, const BesideLine& isBeside) const
 {
 	const auto       along = [&](int p) { return cloud_.position[p][axis_]; };
 	const auto       first = std::lower_bound(points_.begin(), points_.end(), position[axis_] - reach_, [&](int p, double x) { return along(p) < x; });
@@ -37,7 +37,7 @@ std::vector<int> EdgeOfSoil::around(const Vec<2>& position, const BesideBeam& is
 	return near;
 }
 
-double EdgeOfSoil::from(const Vec<2>& position, const Vec<2>& n, const BesideBeam& isBeside) const
+double EdgeOfSoil::from(const Vec<2>& position, const Vec<2>& n, const BesideLine& isBeside) const
 {
 	const double h = cellSize_, window = h / 2;
 	const Vec<2> t(-n[1], n[0]);

@@ -15,11 +15,11 @@ public:
 	/// Distance along n from a position on the line at which the points of a side begin that fill the cell beyond,
 	/// within half a cell: what lies before its centre reaches as far as it would if it were as wide as what lies
 	/// behind. Points are on the side that their centres are on, so that a beam may go through the domains of some.
-	double from(const Vec<2>& position, const Vec<2>& n, const BesideBeam&) const;
+	double from(const Vec<2>& position, const Vec<2>& n, const BesideLine&) const;
 
 private:
 	/// Points of a side, within the reach of a position along each axis, in ascending order.
-	std::vector<int> around(const Vec<2>& position, const BesideBeam&) const;
+	std::vector<int> around(const Vec<2>& position, const BesideLine&) const;
 
 	const PointCloud<2>& cloud_;
 	double               cellSize_, reach_;

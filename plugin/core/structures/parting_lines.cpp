@@ -6,10 +6,9 @@
 namespace gimpm {
 namespace {
 
-/// A beam with what it is made longer by [m].
-struct PartingLine {
+/// A line with what it is made longer by [m], and the places around which soil stays whole.
+struct Cut {
 	std::vector<Vec<2>> positions;
-	bool                isClosed = false;
 	std::vector<Vec<2>> tips;
 	int                 layer = 0;
 };
@@ -22,37 +21,40 @@ bool hasSoil(const Vec<2>& position, const PointCloud<2>& cloud, const Grid<2>& 
 	return !areFarFromMaterial<2>({ position }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
-/// Extends a beam beyond its open ends: out of the cells around them, where a cut ends half a cell to one and a half
-/// cells beyond a tip.
-PartingLine longer(Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
+/// Extends a line beyond its open ends: out of the cells around them, where a cut ends half a cell to one and a half
+/// cells beyond a tip that is bonded.
+Cut longer(PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	constexpr double beyondEnds = 1.5; // [cells]
-	PartingLine      line { beam.positions, beam.isClosed, {}, 0 };
-	if (beam.isClosed) return line;
+	Cut              cut { line.positions, {}, 0 };
+	if (line.isClosed) return cut;
 	for (const int end : { 1, 0 }) {
-		const Vec<2> vertex = end == 0 ? beam.positions.front() : beam.positions.back(), outwards = beam.outwardsAt(end);
-		const bool   isTip  = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
+		const Vec<2> vertex = end == 0 ? line.positions.front() : line.positions.back(), outwards = line.outwardsAt(end);
 		const Vec<2> beyond = vertex + beyondEnds * grid.cellSize * outwards;
-		line.positions.insert(end == 0 ? line.positions.begin() : line.positions.end(), beyond);
-		if (isTip) line.tips.push_back(beyond);
-		beam.isTip[end] = isTip;
+		line.isTip[end]     = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
+		if (line.isTip[end]) cut.tips.push_back(line.isBonded ? beyond : vertex);
+		if (line.isBonded || !line.isTip[end]) cut.positions.insert(end == 0 ? cut.positions.begin() : cut.positions.end(), beyond);
 	}
-	return line;
+	return cut;
 }
 
-/// True if there is soil on both sides of any vertex.
-bool isBetween(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
+/// True if centres of points are beside a line on both of its sides.
+bool isBetween(const PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	std::vector<Vec<2>> positions;
-	for (int v = 0; v < int(beam.positions.size()); ++v) {
-		const Vec<2> t = beam.tangentAt(v), n(-t[1], t[0]);
-		positions.push_back(beam.positions[v] + aside * grid.cellSize * n);
-		positions.push_back(beam.positions[v] - aside * grid.cellSize * n);
+	constexpr double    onLine = 0.1; // [cells]
+	const double        reach  = (aside + reachOfSoil) * grid.cellSize;
+	std::array<bool, 2> found {};
+	Vec<2>              low = line.positions.front(), high = low;
+	for (const Vec<2>& position : line.positions)
+		low = low.cwiseMin(position), high = high.cwiseMax(position);
+	low.array() -= reach, high.array() += reach;
+	for (std::size_t p = 0; p < cloud.size() && !(found[0] && found[1]); ++p) {
+		const Vec<2>& x = cloud.position[p];
+		if ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0) continue;
+		const FromLine at = fromLine(line.positions, x);
+		if (at.away <= reach && !at.isBeyond && std::abs(at.left) > onLine * grid.cellSize) found[at.side > 0] = true;
 	}
-	const auto isFar = areFarFromMaterial<2>(positions, std::vector<double>(positions.size(), reachOfSoil * grid.cellSize), cloud, grid);
-	for (std::size_t i = 0; i < positions.size(); i += 2)
-		if (!isFar[i] && !isFar[i + 1]) return true;
-	return false;
+	return found[0] && found[1];
 }
 
 /// True if a piece of a line goes through the square around a position.
@@ -75,7 +77,7 @@ bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double 
 bool isWithin(const Vec<2>& position, const Vec<2>& middle, double half) { return (position - middle).cwiseAbs().maxCoeff() < half; }
 
 /// The nodes whose four cells a line cuts in two.
-std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
+std::vector<Index<2>> nodesCut(const Cut& line, const Grid<2>& grid)
 {
 	const double          around = (1 - 1e-6) * grid.cellSize;
 	std::vector<Index<2>> nodes;
@@ -98,7 +100,7 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 /// The layer of a position near nodes of their own.
 class LayerAt {
 public:
-	LayerAt(std::vector<PartingLine> lines, std::vector<Key> own, const Grid<2>& grid)
+	LayerAt(std::vector<Cut> lines, std::vector<Key> own, const Grid<2>& grid)
 	        : lines_(std::move(lines)), own_(std::move(own)), origin_(grid.origin), cellSize_(grid.cellSize)
 	{
 		low_ = Vec<2>::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
@@ -127,17 +129,17 @@ private:
 		return false;
 	}
 
-	std::vector<PartingLine> lines_;
-	std::vector<Key>         own_;
-	Vec<2>                   origin_, low_, high_;
-	double                   cellSize_;
+	std::vector<Cut> lines_;
+	std::vector<Key> own_;
+	Vec<2>           origin_, low_, high_;
+	double           cellSize_;
 };
 
 /// The side of a line of vertices that a position within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond
 /// an end.
-int sideOf(const Beam& beam, const Vec<2>& position, double reach)
+int sideOf(const PartingLine& line, const Vec<2>& position, double reach)
 {
-	const FromLine at = fromLine(beam.positions, position);
+	const FromLine at = fromLine(line.positions, position);
 	if (at.away > reach || at.isBeyond || at.side == 0) return 0;
 	return at.side > 0 ? 1 : -1;
 }
@@ -153,59 +155,59 @@ bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& o
 
 } // namespace
 
-void lookBetween(const std::vector<Beam*>& beams, const PointCloud<2>& cloud, const Grid<2>& grid)
+void lookBetween(const std::vector<PartingLine*>& lines, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	for (Beam* beam : beams)
-		beam->layer = 0, beam->isTip = {}, beam->isBetween = isBetween(*beam, cloud, grid);
+	for (PartingLine* line : lines)
+		line->layer = 0, line->isTip = {}, line->isBetween = isBetween(*line, cloud, grid);
 }
 
-BesideBeam::BesideBeam(const Beam& beam, int side, const PointCloud<2>& cloud) : beam_(beam), side_(side), cloud_(cloud) { }
+BesideLine::BesideLine(const PartingLine& line, int side, const PointCloud<2>& cloud) : line_(line), side_(side), cloud_(cloud) { }
 
-bool BesideBeam::operator()(int p) const
+bool BesideLine::operator()(int p) const
 {
 	const int layer = cloud_.layerOf(p);
-	if (layer != 0 && (side_ > 0 || layer != beam_.layer)) return false;
-	return side_ * fromLine(beam_.positions, cloud_.position[p]).side > 0;
+	if (layer != 0 && (side_ > 0 || layer != line_.layer)) return false;
+	return side_ * fromLine(line_.positions, cloud_.position[p]).side > 0;
 }
 
-std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& positions, double cellSize)
+std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vector<Vec<2>>& positions, double cellSize)
 {
 	std::vector<int> sides(positions.size(), 0);
-	for (const Beam* beam : beams) {
-		if (beam->layer == 0) continue;
-		Vec<2> low = beam->positions.front(), high = low;
-		for (const Vec<2>& position : beam->positions)
+	for (const PartingLine* line : lines) {
+		if (line->layer == 0) continue;
+		Vec<2> low = line->positions.front(), high = low;
+		for (const Vec<2>& position : line->positions)
 			low = low.cwiseMin(position), high = high.cwiseMax(position);
 		low.array() -= cellSize, high.array() += cellSize;
 		for (std::size_t p = 0; p < positions.size(); ++p)
 			if ((positions[p] - low).minCoeff() >= 0 && (high - positions[p]).minCoeff() >= 0)
-				if (const int side = sideOf(*beam, positions[p], cellSize); side != 0) sides[p] = -side * beam->layer;
+				if (const int side = sideOf(*line, positions[p], cellSize); side != 0) sides[p] = -side * line->layer;
 	}
 	return sides;
 }
 
-void partSoil(const std::vector<Beam*>& beams, PointCloud<2>& cloud, Grid<2>& grid)
+void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid<2>& grid)
 {
-	std::vector<PartingLine> lines;
-	std::vector<Index<2>>    taken;
-	std::vector<Key>         own;
-	lookBetween(beams, cloud, grid);
-	for (Beam* beam : beams) {
-		if (int(lines.size()) == Grid<2>::mostLayer || !beam->isBetween) continue;
-		PartingLine line  = longer(*beam, cloud, grid);
-		const auto  nodes = nodesCut(line, grid);
+	std::vector<Cut>      cuts;
+	std::vector<Index<2>> taken;
+	std::vector<Key>      own;
+	lookBetween(lines, cloud, grid);
+	for (PartingLine* line : lines) {
+		if (int(cuts.size()) == Grid<2>::mostLayer || !line->isBetween) continue;
+		Cut        cut   = longer(*line, cloud, grid);
+		const auto nodes = nodesCut(cut, grid);
 		if (nodes.empty() || !areApart(nodes, taken)) continue;
-		beam->layer = line.layer = int(lines.size()) + 1;
+		line->layer = cut.layer = int(cuts.size()) + 1;
 		for (const Index<2>& node : nodes)
-			own.push_back(Grid<2>::key(node, 0, line.layer));
+			own.push_back(Grid<2>::key(node, 0, cut.layer));
 		taken.insert(taken.end(), nodes.begin(), nodes.end());
-		lines.push_back(std::move(line));
+		cuts.push_back(std::move(cut));
 	}
 	grid.parting.reset();
 	cloud.layer.clear();
-	if (lines.empty()) return;
+	if (cuts.empty()) return;
 	std::sort(own.begin(), own.end());
-	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(lines), own, grid));
+	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(cuts), own, grid));
 	cloud.layer.resize(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p)
 		cloud.layer[p] = grid.parting->layerAt(cloud.position[p]);

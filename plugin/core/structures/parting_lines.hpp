@@ -1,36 +1,64 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Beams that part the soil on their two sides.
+// Lines, as beams and thin rigid bodies, that part the soil on their two sides.
 #pragma once
 #include "core/grid/parting.hpp"
 #include "core/grid/point_cloud.hpp"
-#include "core/structures/structure.hpp"
+#include <array>
+#include <vector>
 
 namespace gimpm {
 
-/// Gives points to the right of beams, near these, layers of their own, the grid the nodes there that are there twice,
-/// and beams the layer of the soil to their right; 0 where there is soil on one side only, or another beam within three
+/// A line of vertices in the plane that parts the soil on its two sides, or might.
+struct PartingLine {
+	std::vector<Vec<2>> positions;        ///< of the vertices, as the step begins [m]
+	bool                isClosed = false; ///< the last vertex is the first one
+	/// The cut goes on beyond its tips, where bonds keep the soil together (StructureForce); else it ends at the last
+	/// line of the grid before them.
+	bool isBonded = false;
+
+	/// In this step: of the points to its right, where it parts the soil; 0: it does not.
+	int layer = 0;
+	/// In this step: it has soil on both of its sides, and parts it or does not.
+	bool isBetween = false;
+	/// In this step: its first and its last vertex are tips of a cut, with soil beyond them.
+	std::array<bool, 2> isTip {};
+
+	/// Outwards from its first (0) or its last (1) vertex.
+	Vec<2> outwardsAt(int end) const { return (end == 0 ? -1 : 1) * tangentAt(end == 0 ? 0 : int(positions.size()) - 1); }
+	/// Along the line at a vertex, from its first to its last one.
+	Vec<2> tangentAt(int vertex) const
+	{
+		const int last = int(positions.size()) - 1;
+		if (isClosed && vertex % last == 0) return (positions[1] - positions[last - 1]).normalized();
+		return (positions[std::min(vertex + 1, last)] - positions[std::max(vertex - 1, 0)]).normalized();
+	}
+};
+
+/// Gives points to the right of lines, near these, layers of their own, the grid the nodes there that are there twice,
+/// and lines the layer of the soil to their right; 0 where there is soil on one side only, or another line within three
 /// cells that parts it. An end that has soil beyond it is a tip, around which soil is whole: as of the line of the grid
 /// that is nearest to it.
-void partSoil(const std::vector<Beam*>&, PointCloud<2>&, Grid<2>&);
+void partSoil(const std::vector<PartingLine*>&, PointCloud<2>&, Grid<2>&);
 
-/// Finds the beams that have soil on both of their sides; no more, where none may part it.
-void lookBetween(const std::vector<Beam*>&, const PointCloud<2>&, const Grid<2>&);
+/// Finds the lines that have soil on both of their sides; no more, where none may part it.
+void lookBetween(const std::vector<PartingLine*>&, const PointCloud<2>&, const Grid<2>&);
 
-/// Points on one side (1 left, -1 right) of a beam that parts the soil, and of its line beyond its ends. Not all points
-/// to its right have its layer: those that are far from nodes of their own have the layer of the others.
-class BesideBeam {
+/// Points on one side (1 left, -1 right) of a line that parts the soil, and of its straight continuation beyond its
+/// ends. Not all points to its right have its layer: those that are far from nodes of their own have the layer of the
+/// others.
+class BesideLine {
 public:
-	BesideBeam(const Beam&, int side, const PointCloud<2>&);
+	BesideLine(const PartingLine&, int side, const PointCloud<2>&);
 	bool operator()(int p) const;
 
 private:
-	const Beam&          beam_;
+	const PartingLine&   line_;
 	int                  side_;
 	const PointCloud<2>& cloud_;
 };
 
-/// Sides of positions within a cell of a beam that parts the soil, but not beyond its ends: the beam's layer to its
-/// right, less than 0 to its left; else 0. A point that changes the sign in a step has gone through the beam.
-std::vector<int> sidesOf(const std::vector<Beam*>&, const std::vector<Vec<2>>& positions, double cellSize);
+/// Sides of positions within a cell of a line that parts the soil, but not beyond its ends: the line's layer to its
+/// right, less than 0 to its left; else 0. A point that changes the sign in a step has gone through the line.
+std::vector<int> sidesOf(const std::vector<PartingLine*>&, const std::vector<Vec<2>>& positions, double cellSize);
 
 } // namespace gimpm

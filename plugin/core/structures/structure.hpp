@@ -3,6 +3,7 @@
 #pragma once
 #include "core/structures/bar_element.hpp"
 #include "core/structures/beam_element.hpp"
+#include "core/structures/parting_lines.hpp"
 #include "core/structures/shell_element.hpp"
 #include <limits>
 #include <optional>
@@ -83,14 +84,15 @@ struct TipBond {
 
 /// A line of vertices in the plane, each with a position and a turn of its own, that the soil acts on by springs.
 /// Around an axis it is the meridian of a shell of revolution: forces are those on the whole ring then.
-struct Beam {
+struct Beam : PartingLine {
 	static constexpr double inf = std::numeric_limits<double>::infinity();
+
+	Beam() { isBonded = true; }
 
 	std::string         name = "a beam";
 	BeamSection         section;
 	double              plasticMoment = inf;            ///< [N m]
 	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]; of a shell over area
-	bool                isClosed      = false;          ///< the last vertex is the first one
 	bool                isShell       = false;          ///< around the axis x = 0
 	std::vector<char>   isHinge;                        ///< flag by vertex: no moment there
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
@@ -111,16 +113,7 @@ struct Beam {
 	double adhesion  = inf; ///< [Pa]
 	double friction  = 0;   ///< tan(delta)
 
-	/// In this step: of the points to its right, where it parts the soil (parting_lines.hpp); 0: it does not.
-	int layer = 0;
-	/// In this step: it has soil on both of its sides, and parts it or does not.
-	bool isBetween = false;
-	/// In this step: its first and its last vertex are tips of a cut, which goes on beyond them
-	/// (parting_lines.hpp).
-	std::array<bool, 2> isTip {};
-
 	/// State as the step begins.
-	std::vector<Vec<2>>     positions;
 	std::vector<double>     turns;      ///< turns of the vertices in all [rad]
 	std::vector<double>     length0;    ///< lengths of the pieces [m]
 	std::vector<double>     radius0;    ///< shell: radii of the vertices without stress [m]
@@ -180,16 +173,7 @@ struct Beam {
 		const double own = radius0[piece + end], other = radius0[piece + 1 - end];
 		return M_PI * (2 * own + other) / 3 * length0[piece];
 	}
-	/// Outwards from its first (0) or its last (1) vertex.
-	Vec<2> outwardsAt(int end) const { return (end == 0 ? -1 : 1) * tangentAt(end == 0 ? 0 : int(positions.size()) - 1); }
-	bool   isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
-	/// Along the beam at a vertex, from its first to its last one.
-	Vec<2> tangentAt(int vertex) const
-	{
-		const int last = int(positions.size()) - 1;
-		if (isClosed && vertex % last == 0) return (positions[1] - positions[last - 1]).normalized();
-		return (positions[std::min(vertex + 1, last)] - positions[std::max(vertex - 1, 0)]).normalized();
-	}
+	bool isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
 };
 
 /// Connected structure: bars, and a beam that some of them may be anchors of.

@@ -124,7 +124,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 		const Beam&               beam  = *structure_.beam;
 		const std::size_t         count = beam.positions.size(), right = soil.size();
 		const std::vector<double> cells(count, step.grid.cellSize);
-		const std::array          beside { BesideBeam(beam, 1, step.cloud), BesideBeam(beam, -1, step.cloud) };
+		const std::array          beside { BesideLine(beam, 1, step.cloud), BesideLine(beam, -1, step.cloud) };
 		const std::array          near { soilNear<2>(beam.positions, cells, step, beside[0]), soilNear<2>(beam.positions, cells, step, beside[1]) };
 		const EdgeOfSoil          edges(beam.positions, step.grid.cellSize, step.cloud);
 		soil.resize(right + count), attached_.resize(right + count);
@@ -178,8 +178,8 @@ template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const StepContext<D
 			auto       left = attachTo(0, 0), right = attachTo(beam.layer, 0);
 			const bool isParted = beam.isTip[end] && left && right && left->node != right->node;
 			if (isParted)
-				left  = attachTo(0, edges.from(positions[i], n, BesideBeam(beam, 1, step.cloud))),
-				right = attachTo(beam.layer, -edges.from(positions[i], -n, BesideBeam(beam, -1, step.cloud)));
+				left  = attachTo(0, edges.from(positions[i], n, BesideLine(beam, 1, step.cloud))),
+				right = attachTo(beam.layer, -edges.from(positions[i], -n, BesideLine(beam, -1, step.cloud)));
 			for (SoilAtVertex& at : beside) {
 				at.exists       = isParted && left && right && near[i].young > 0;
 				at.young        = near[i].young;

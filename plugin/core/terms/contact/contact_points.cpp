@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/contact_points.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/parting.hpp"
 #include "core/terms/contact/contact_hiding.hpp"
 #include "core/terms/contact/contact_small.hpp"
 #include "core/terms/contact/contact_surface.hpp"
@@ -72,6 +73,14 @@ template <int Dim> void spreadPressure(const ContactSystem<Dim>& system, const G
 		point->law.around = cell->force / cell->area * point->area, point->law.reach = offChord * grid.cellSize;
 }
 
+/// The layer of the nodes before a contact point, of soil in a layer of its own, or of one that a line parts: there a
+/// point of the surface keeps its number on whatever side of the line soil begins to be parted.
+template <int Dim> int layerBefore(const Grid<Dim>& grid, const Vec<Dim>& onBody, const Vec<Dim>& normal, int layer)
+{
+	constexpr double little = 1e-3; // cells
+	return grid.parting ? grid.parting->layerAt(onBody + little * grid.cellSize * normal) : layer;
+}
+
 template <int Dim> auto findLost(const ContactSystem<Dim>& system, const StepContext<Dim>& step, const std::vector<ContactPoint<Dim>>& points)
 {
 	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost;
@@ -84,7 +93,7 @@ template <int Dim> auto findLost(const ContactSystem<Dim>& system, const StepCon
 		for (int quarter = 0; quarter <= 4 && !attached && !isMet[i] && r.touches; ++quarter) // deeper in the soil, where its face has no nodes
 			attached = attach(
 			        Vec<Dim>(r.position + 0.25 * quarter * step.grid.cellSize * r.normal), step.basis, step.grid,
-			        int(r.number >> contactPointBits));
+			        layerBefore(step.grid, Vec<Dim>(r.position - std::min(0., r.gap) * r.normal), r.normal, int(r.number >> contactPointBits)));
 		if (attached) lost.emplace_back(*attached, i);
 	}
 	return lost;
@@ -106,7 +115,7 @@ template <int Dim> std::vector<SoilPoint<Dim>> soilNear(const ContactSystem<Dim>
 	std::vector<SoilPoint<Dim>> found;
 	for (const auto& [body, point, side] : nearPoints(system.bodies, step.cloud, step.basis, step.grid)) {
 		if (point >= step.division.ownOf(step.cloud.size())) continue; // the process that has it tells of it
-		SoilPoint<Dim> near { body, side, step.cloud.layerOf(point), {}, {}, step.stiffnessOf(point).modulus };
+		SoilPoint<Dim> near { body, side, step.grid.parting ? 0 : step.cloud.layerOf(point), {}, {}, step.stiffnessOf(point).modulus };
 		std::copy_n(step.cloud.position[point].data(), Dim, near.position.data());
 		std::copy_n(step.cloud.halfSize[point].data(), Dim, near.halfSize.data());
 		found.push_back(near);
@@ -193,7 +202,7 @@ private:
 		if (made.areaFraction <= noArea) return;
 		// Pressed soil begins inside of the body: at its face even pressure would not balance even stress.
 		if (touched && record->gap < 0) made.soil = onBody + record->gap * normal;
-		if (!place(made, point, layer)) return;
+		if (!place(made, point, layerBefore(step_.grid, onBody, normal, layer))) return;
 		made.area            = made.areaFraction * point.area * (isRing ? 2 * M_PI * onBody[0] : 1);
 		made.young           = sight->young;
 		const double penalty = body_.stiffness * made.young * made.area / h_;

@@ -65,6 +65,7 @@ template <int Dim> struct RigidBody {
 	double          turn     = 0;  ///< rotation by which it turns from one load step to the next, also where its poses do not tell [rad]
 	int             soilSide = 0;  ///< side on which alone a two-sided surface has had soil in sight
 	double          slack    = 0;  ///< distance behind the surface up to which soil is still on that side [m]
+	bool            parts    = false; ///< in this step the soil on its two sides has nodes of its own on each of them
 	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
 	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
 	/// Owners of those nodes, and the turn that they give the body about its axis in the step, for a capsule [rad].

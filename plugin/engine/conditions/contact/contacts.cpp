@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
+#include "core/structures/rigid_lines.hpp"
 #include "core/terms/contact/contact.hpp"
 #include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/conditions/contact/rolling.hpp"
 #include "engine/conditions/contact/small_features.hpp"
+#include "engine/conditions/structures/MpmBeam.hpp"
+#include "engine/conditions/structures/parting.hpp"
 #include "yade_api/bodies.hpp"
 #include <algorithm>
 #include <map>
@@ -69,6 +72,17 @@ namespace {
 	Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
 
 	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
+
+	// Features that do not go with soil parted by thin bodies; empty: nothing.
+	string cannotPart(const Analysis& analysis, int processes, int dim)
+	{
+		if (dim == 3) return "MpmGrid.dim = 3";
+		if (processes > 1) return "several processes";
+		if (analysis.isExplicit()) return "explicit steps";
+		for (const Listed& listed : analysis.conditions())
+			if (listed.condition->partsBodies() || dynamic_cast<const MpmBeam*>(listed.condition.get())) return listed.name();
+		return obstacleToParting(analysis);
+	}
 }
 
 template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : system(new gimpm::ContactSystem<Dim>)
@@ -212,6 +226,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
 	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
 	cellSize = model.grid.cellSize;
+	inItsWay = cannotPart(around.analysis, model.processes->size(), Dim);
 	inTime   = around.analysis.isDynamic();
 	for (const auto& material : model.materials)
 		soil.density = std::max(soil.density, material.density);
@@ -244,6 +259,22 @@ template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, co
 	for (Owner& owner : owners)
 		owner.motion.part = motion.scheme.atMiddle ? 0.5 : motion.scheme.isAlpha() ? 1 - motion.scheme.alphaF : motion.scheme.gamma;
 	motion.contacts = system.get();
+}
+
+template <int Dim> void Contacts<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model)
+{
+	if constexpr (Dim == 2) {
+		if (!inItsWay.empty()) return;
+		advanceTo(end);
+		auto                        lines = gimpm::linesOf(system->bodies, model.grid.cellSize);
+		vector<gimpm::PartingLine*> those;
+		for (auto& line : lines)
+			those.push_back(&line);
+		gimpm::partSoil(those, cloud, model.grid);
+		for (const auto& line : lines)
+			for (const int body : line.bodies)
+				system->bodies[body].parts = line.layer > 0;
+	}
 }
 
 template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>& model, gimpm::Load<Dim>& load)
@@ -365,7 +396,7 @@ template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
 	found["distance"]    = distance;
-	found["thin"]        = warningOfSmallFeatures(*system, cellSize);
+	found["thin"]        = warningOfSmallFeatures(*system, cellSize, inItsWay);
 	for (size_t i = 0; i < owners.size() && !inTime; ++i)
 		if (owners[i].isFree && found["rolls"].empty()) found["rolls"] = warningOfRolling<Dim>(*owners[i].body, *system, int(i), cellSize);
 	return found;

@@ -24,6 +24,7 @@ public:
 
 	// Their forces enter the balance with a weight.
 	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void part(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&) override;
 	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
 
 	// A free body must not be too light for the stiffness that it would be handed.
@@ -102,6 +103,7 @@ private:
 	SoilAtBody                            soil;
 	string                                coefficient; // doubt about an angle of friction
 	string                                distance;    // and about where the bodies are
+	string                                inItsWay;    // feature that does not go with soil parted by thin bodies
 	std::optional<Movers>                 movers;
 	std::optional<gimpm::LoadCurve>       ofGravity;
 	Vector3r                              gravity    = Vector3r::Zero(); // at factor 1

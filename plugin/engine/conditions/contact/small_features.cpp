@@ -19,18 +19,21 @@ namespace {
 
 	// The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its
 	// narrow faces they are farther apart than these are wide.
-	template <int Dim> string ofThinness(const gimpm::RigidBody<Dim>& body, const Touched<Dim>& touched, Real cellSize)
+	template <int Dim> string ofThinness(const gimpm::RigidBody<Dim>& body, const Touched<Dim>& touched, Real cellSize, const string& inItsWay)
 	{
 		bool isBetween = false, isNarrow = false;
 		for (const auto* r : touched) {
-			isBetween = isBetween || touched[0]->normal.dot(r->normal) < -0.5;
+			isBetween = isBetween || (!body.parts && touched[0]->normal.dot(r->normal) < -0.5);
 			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r->normal);
 		}
 		if (!isNarrow && !isBetween) return "";
 		return gimpm::sentence(
 		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
 		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
-		        isBetween ? "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone. " : "",
+		        isBetween ? gimpm::sentence(
+		                "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone: bodies do not part it beside ",
+		                inItsWay.empty() ? "another one within three cells, nor where they are hardly longer than a cell" : inItsWay, ". ")
+		                  : "",
 		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
 	}
 
@@ -71,7 +74,7 @@ namespace {
 	}
 }
 
-template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>& system, Real cellSize)
+template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>& system, Real cellSize, const string& inItsWay)
 {
 	using gimpm::RigidKind;
 	const auto isSheet = [&](const auto& body) { return body.shape.kind == RigidKind::sheet; };
@@ -84,7 +87,7 @@ template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>
 		string     text;
 		if (isThin && body.shape.kind == RigidKind::ball) text = ofSmallBall(body, cellSize);
 		else if (isThin)
-			text = ofThinness(body, touched, cellSize);
+			text = ofThinness(body, touched, cellSize, inItsWay);
 		if (body.shape.kind == RigidKind::block && text.empty())
 			text = ofEdge(body, gimpm::reachFromEdge(body, body.end, placesOf<Dim>(touched)), cellSize);
 		if (isSheet(body) && !isMesh && text.empty()) text = ofBorder(body, gimpm::reachFromBorder(body, body.end, placesOf<Dim>(touched)), cellSize);
@@ -93,7 +96,7 @@ template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>
 	return "";
 }
 
-template string warningOfSmallFeatures(const gimpm::ContactSystem<2>&, Real);
-template string warningOfSmallFeatures(const gimpm::ContactSystem<3>&, Real);
+template string warningOfSmallFeatures(const gimpm::ContactSystem<2>&, Real, const string&);
+template string warningOfSmallFeatures(const gimpm::ContactSystem<3>&, Real, const string&);
 
 } // namespace yade

@@ -7,7 +7,8 @@
 namespace yade {
 
 // About the first body that touches the soil by what is smaller than a cell: a thin one, a small ball, an edge or a tip
-// of which less is in the soil. Names the body and the cells that would do; empty if there is none.
-template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>&, Real cellSize);
+// of which less is in the soil. Names the body, the cells that would do, and what keeps a thin one from parting the
+// soil; empty if there is none.
+template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>&, Real cellSize, const string& inItsWay);
 
 } // namespace yade

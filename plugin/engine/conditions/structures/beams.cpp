@@ -3,6 +3,7 @@
 #include "core/base/sentence.hpp"
 #include "core/grid/surface.hpp"
 #include "core/structures/parting_lines.hpp"
+#include "engine/conditions/structures/parting.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include <numeric>
@@ -73,19 +74,12 @@ namespace {
 		return beam;
 	}
 
-	// Features that nodes with affine constraints have not been shown to go with; empty: nothing.
+	// Features that do not go with soil parted by beams; empty: nothing.
 	string cannotPart(const Analysis& analysis)
 	{
-		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
-		if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
-		if (analysis.nonlocalLength > 0) return "nonlocalLength";
-		if (analysis.pressureRelaxation) return "pressureRelaxation";
-		if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";
 		for (const Listed& listed : analysis.conditions())
 			if (string(listed.list) == "contacts") return listed.name();
-			else if (const string own = listed.condition->needsUntiedNodes(listed.name()); !own.empty())
-				return own;
-		return "";
+		return obstacleToParting(analysis);
 	}
 
 	void scatterBeam(const Beam& beam, MpmBeam& to)
@@ -180,9 +174,9 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 	}
 }
 
-vector<Beam*> Beams::beams()
+vector<gimpm::PartingLine*> Beams::lines()
 {
-	vector<Beam*> all;
+	vector<gimpm::PartingLine*> all;
 	for (auto& structure : structures)
 		all.push_back(&*structure.beam);
 	return all;
@@ -214,12 +208,12 @@ void Beams::requireWhole() const
 void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
 	if (!inItsWay.empty()) {
-		gimpm::lookBetween(beams(), cloud, model.grid);
+		gimpm::lookBetween(lines(), cloud, model.grid);
 		return requirePermeable();
 	}
-	gimpm::partSoil(beams(), cloud, model.grid);
+	gimpm::partSoil(lines(), cloud, model.grid);
 	if (processesCount > 1) requireWhole();
-	sides = gimpm::sidesOf(beams(), cloud.position, model.grid.cellSize);
+	sides = gimpm::sidesOf(lines(), cloud.position, model.grid.cellSize);
 }
 
 void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
@@ -267,16 +261,16 @@ Work Beams::work(const StepOutcome<2>&) const
 
 namespace {
 	// Points that are on the other side of a beam than as the step began.
-	vector<size_t> crossedIn(const StepOutcome<2>& step, const vector<Beam*>& beams, const vector<int>& before)
+	vector<size_t> crossedIn(const StepOutcome<2>& step, const vector<gimpm::PartingLine*>& lines, const vector<int>& before)
 	{
 		vector<gimpm::Vec<2>> places;
 		for (const MaterialPoint& point : step.points)
 			places.push_back(point.state->pos.head<2>());
-		const auto     after = gimpm::sidesOf(beams, places, step.model.grid.cellSize);
-		vector<size_t> crossed(beams.size(), 0);
+		const auto     after = gimpm::sidesOf(lines, places, step.model.grid.cellSize);
+		vector<size_t> crossed(lines.size(), 0);
 		for (size_t p = 0; p < before.size(); ++p)
-			for (size_t b = 0; b < beams.size() && before[p] != 0; ++b)
-				crossed[b] += std::abs(before[p]) == beams[b]->layer && after[p] == -before[p];
+			for (size_t b = 0; b < lines.size() && before[p] != 0; ++b)
+				crossed[b] += std::abs(before[p]) == lines[b]->layer && after[p] == -before[p];
 		return crossed;
 	}
 }
@@ -284,7 +278,7 @@ namespace {
 void Beams::reach(const StepOutcome<2>& step)
 {
 	if (inItsWay.empty()) {
-		const auto now = crossedIn(step, beams(), sides);
+		const auto now = crossedIn(step, lines(), sides);
 		crossed.resize(now.size(), 0);
 		std::transform(now.begin(), now.end(), crossed.begin(), crossed.begin(), std::plus<>());
 	}

@@ -36,7 +36,7 @@ private:
 	bool waterFlows     = false; // MpmFlow, which knows of no beams
 	int  processesCount = 1;
 
-	vector<gimpm::Beam*> beams();
+	vector<gimpm::PartingLine*> lines();
 	void                 requirePermeable() const;
 	void                 requireWhole() const;
 };

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/rigid_lines.hpp"
+#include <algorithm>
+#include <optional>
+
+namespace gimpm {
+namespace {
+
+struct Piece {
+	std::array<Vec<2>, 2> ends;
+	int                   body;
+};
+
+std::optional<Piece> pieceOf(const RigidBody<2>& body, int number, double cellSize)
+{
+	const auto& shape = body.shape;
+	if (shape.kind == RigidKind::sheet && shape.isTwoSided)
+		return Piece { { body.begin.inSpace(shape.corners[0]), body.begin.inSpace(shape.corners[1]) }, number };
+	if (shape.kind != RigidKind::block || body.thickness() >= cellSize * (1 - 1e-9)) return std::nullopt;
+	int longest;
+	shape.halfSize.maxCoeff(&longest);
+	const Vec<2> half = shape.halfSize[longest] * Vec<2>::Unit(longest);
+	return Piece { { body.begin.inSpace(-half), body.begin.inSpace(half) }, number };
+}
+
+/// Ends of pieces joined to lines.
+class Chains {
+public:
+	Chains(std::vector<Piece> pieces, double cellSize) : pieces_(std::move(pieces)), isTaken_(pieces_.size(), false), same_(1e-6 * cellSize) { }
+
+	std::vector<RigidLine> lines()
+	{
+		std::vector<RigidLine> all;
+		for (std::size_t i = 0; i < pieces_.size(); ++i) {
+			if (isTaken_[i]) continue;
+			isTaken_[i] = true;
+			RigidLine line;
+			line.positions = { pieces_[i].ends[0], pieces_[i].ends[1] }, line.bodies = { pieces_[i].body };
+			lengthen(line);
+			std::reverse(line.positions.begin(), line.positions.end()), std::reverse(line.bodies.begin(), line.bodies.end());
+			lengthen(line);
+			line.isClosed = areSame(line.positions.front(), line.positions.back());
+			if (line.isClosed) line.positions.back() = line.positions.front();
+			all.push_back(std::move(line));
+		}
+		return all;
+	}
+
+private:
+	bool areSame(const Vec<2>& a, const Vec<2>& b) const { return (a - b).norm() <= same_; }
+
+	/// Adds pieces at its last vertex, as long as there is one.
+	void lengthen(RigidLine& line)
+	{
+		for (int next; (next = pieceAt(line.positions.back())) >= 0;) {
+			const auto& ends = pieces_[next].ends;
+			isTaken_[next]   = true;
+			line.positions.push_back(ends[areSame(ends[0], line.positions.back())]);
+			line.bodies.push_back(pieces_[next].body);
+		}
+	}
+
+	/// The only free piece at a vertex where two end; -1: there is none.
+	int pieceAt(const Vec<2>& vertex) const
+	{
+		int count = 0, found = -1;
+		for (std::size_t i = 0; i < pieces_.size(); ++i)
+			for (const Vec<2>& end : pieces_[i].ends)
+				if (areSame(end, vertex)) ++count, found = isTaken_[i] ? found : int(i);
+		return count == 2 ? found : -1;
+	}
+
+	std::vector<Piece> pieces_;
+	std::vector<bool>  isTaken_;
+	const double       same_;
+};
+
+} // namespace
+
+std::vector<RigidLine> linesOf(const std::vector<RigidBody<2>>& bodies, double cellSize)
+{
+	std::vector<Piece> pieces;
+	for (int b = 0; b < int(bodies.size()); ++b)
+		if (const auto piece = pieceOf(bodies[b], b, cellSize)) pieces.push_back(*piece);
+	return Chains(std::move(pieces), cellSize).lines();
+}
+
+} // namespace gimpm
