@@ -21,19 +21,19 @@ bool hasSoil(const Vec<2>& position, const PointCloud<2>& cloud, const Grid<2>& 
 	return !areFarFromMaterial<2>({ position }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
 }
 
-/// Extends a line beyond its open ends: out of the cells around them, where a cut ends half a cell to one and a half
-/// cells beyond a tip that is bonded.
+/// Extends a line beyond its open ends: out of the cells around them, so that a cut ends half a cell to one and a half
+/// cells beyond a tip that is bonded, and else at the first line of the grid beyond it.
 Cut longer(PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	constexpr double beyondEnds = 1.5; // [cells]
+	constexpr double beyondEnds = 1.5, beyondTip = 0.99; // [cells]
 	Cut              cut { line.positions, {}, 0 };
 	if (line.isClosed) return cut;
 	for (const int end : { 1, 0 }) {
 		const Vec<2> vertex = end == 0 ? line.positions.front() : line.positions.back(), outwards = line.outwardsAt(end);
-		const Vec<2> beyond = vertex + beyondEnds * grid.cellSize * outwards;
 		line.isTip[end]     = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
-		if (line.isTip[end]) cut.tips.push_back(line.isBonded ? beyond : vertex);
-		if (line.isBonded || !line.isTip[end]) cut.positions.insert(end == 0 ? cut.positions.begin() : cut.positions.end(), beyond);
+		const Vec<2> beyond = vertex + (line.isTip[end] && !line.isBonded ? beyondTip : beyondEnds) * grid.cellSize * outwards;
+		cut.positions.insert(end == 0 ? cut.positions.begin() : cut.positions.end(), beyond);
+		if (line.isTip[end]) cut.tips.push_back(beyond);
 	}
 	return cut;
 }
