@@ -190,12 +190,12 @@ private:
 		if (!sight || others.hides(onBody, normal)) return;
 		ContactPoint<Dim> made;
 		made.body = number_, made.number = point.number | std::int64_t(layer) << contactPointBits;
-		made.gap            = std::max(0., sight->gap);
-		made.soil           = onBody + made.gap * normal;
-		made.normal         = (body_.free < 0 ? body_.end : body_.begin).rotation * point.normal;
-		made.areaFraction   = sight->areaFraction;
-		const auto* record  = system_.recordOf(made);
-		const bool  touched = record && record->touches;
+		const auto* record = system_.recordOf(made);
+		made.gap           = std::max(0., isWithinSoil(onBody, normal, sight->gap, soil) ? (record ? record->gap : 0) : sight->gap);
+		made.soil          = onBody + made.gap * normal;
+		made.normal        = (body_.free < 0 ? body_.end : body_.begin).rotation * point.normal;
+		made.areaFraction  = sight->areaFraction;
+		const bool touched = record && record->touches;
 		// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell
 		// from being there in full to not being there.
 		if (touched) made.areaFraction = std::max(made.areaFraction, record->areaFraction - 4 * record->travel / h_);
@@ -210,6 +210,15 @@ private:
 		if (record) recall(made, *record, sight->gap);
 		if (touched && record->gap < 0) moveOut(made, *record, soil);
 		to_.points.push_back(made);
+	}
+
+	/// True where a sheet parts soil that is one body: domains through which it goes count on one of its sides, and
+	/// leave a gap on the other one, which is none. What opens then is known from its motion.
+	bool isWithinSoil(const Vec<Dim>& onBody, const Vec<Dim>& normal, double gap, const SoilNear<Dim>& soil) const
+	{
+		if (!body_.parts || body_.shape.kind != RigidKind::sheet || gap <= 0) return false;
+		const auto behind = soil.from(onBody, -normal, 0);
+		return behind && gap + behind->gap <= deepestInBody * h_;
 	}
 
 	/// Attaches it to the soil. False behind a wall, where there is none.
