@@ -12,8 +12,8 @@ namespace gimpm {
 struct PartingLine {
 	std::vector<Vec<2>> positions;        ///< of the vertices, as the step begins [m]
 	bool                isClosed = false; ///< the last vertex is the first one
-	/// The cut goes on beyond its tips, where bonds keep the soil together (StructureForce); else it ends at the first
-	/// line of the grid beyond them.
+	/// The cut goes on beyond its tips, where bonds keep the soil together (StructureForce); else it ends at the
+	/// first line of the grid beyond them.
 	bool isBonded = false;
 
 	/// In this step: of the points to its right, where it parts the soil; 0: it does not.

@@ -62,12 +62,13 @@ template <int Dim> struct RigidBody {
 	double          adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness           = 0;                                       ///< stiffness of the contact, over Young's modulus per cell [-]
 	Pose<Dim>       begin {}, end {};                                              ///< both ends of the step
-	double          turn     = 0;  ///< rotation by which it turns from one load step to the next, also where its poses do not tell [rad]
-	int             soilSide = 0;  ///< side on which alone a two-sided surface has had soil in sight
-	double          slack    = 0;  ///< distance behind the surface up to which soil is still on that side [m]
-	bool            parts    = false; ///< in this step the soil on its two sides has nodes of its own on each of them
-	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
-	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
+	double          turn      = 0;     ///< rotation by which it turns from one load step to the next, also where its poses do not tell [rad]
+	int             soilSide  = 0;     ///< side on which alone a two-sided surface has had soil in sight
+	double          slack     = 0;     ///< distance behind the surface up to which soil is still on that side [m]
+	bool            isBetween = false; ///< in this step it is thin in the plane and has soil on both of its sides
+	bool            parts     = false; ///< and these have nodes of their own
+	int             free      = -1;    ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
+	int             nodes     = 0;     ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
 	/// Owners of those nodes, and the turn that they give the body about its axis in the step, for a capsule [rad].
 	std::array<int, 3>    nodeOwners { 0, 0, 0 };
 	std::array<double, 3> twists { 0, 0, 0 };

@@ -264,16 +264,17 @@ template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, co
 template <int Dim> void Contacts<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model)
 {
 	if constexpr (Dim == 2) {
-		if (!inItsWay.empty()) return;
 		advanceTo(end);
 		auto                        lines = gimpm::linesOf(system->bodies, model.grid.cellSize);
 		vector<gimpm::PartingLine*> those;
 		for (auto& line : lines)
 			those.push_back(&line);
-		gimpm::partSoil(those, cloud, model.grid);
+		if (inItsWay.empty()) gimpm::partSoil(those, cloud, model.grid);
+		else
+			gimpm::lookBetween(those, cloud, model.grid);
 		for (const auto& line : lines)
 			for (const int body : line.bodies)
-				system->bodies[body].parts = line.layer > 0;
+				system->bodies[body].isBetween = line.isBetween, system->bodies[body].parts = line.layer > 0;
 	}
 }
 

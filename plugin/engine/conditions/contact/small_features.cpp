@@ -21,11 +21,12 @@ namespace {
 	// narrow faces they are farther apart than these are wide.
 	template <int Dim> string ofThinness(const gimpm::RigidBody<Dim>& body, const Touched<Dim>& touched, Real cellSize, const string& inItsWay)
 	{
-		bool isBetween = false, isNarrow = false;
+		bool isBetween = body.isBetween, isNarrow = false;
 		for (const auto* r : touched) {
-			isBetween = isBetween || (!body.parts && touched[0]->normal.dot(r->normal) < -0.5);
+			isBetween = isBetween || touched[0]->normal.dot(r->normal) < -0.5;
 			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r->normal);
 		}
+		isBetween = isBetween && !body.parts;
 		if (!isNarrow && !isBetween) return "";
 		return gimpm::sentence(
 		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
@@ -63,14 +64,16 @@ namespace {
 		        ". Cells of at most ", reach / 5, " m, or five times that depth, make it a twentieth.");
 	}
 
-	// The same of the border of a sheet, which no cells resolve.
+	// The same of the border of a sheet, which no cells resolve where soil on its two sides moves as one.
 	template <int Dim> string ofBorder(const gimpm::RigidBody<Dim>& body, Real reach, Real cellSize)
 	{
 		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
 		        body.name, " presses by a border of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
-		        " m). Its contact force there depends on its position in a cell, by up to a sixth, and smaller cells do not change that, as soil on both of "
-		        "its sides moves as one. A Box, or a closed mesh of Facets, that has its thickness can be resolved.");
+		        " m). Its contact force there depends on its position in a cell, by up to a sixth, and smaller cells ",
+		        body.parts
+		                ? "make that less."
+		                : "do not change that, as soil on both of its sides moves as one. A Box, or a closed mesh of Facets, that has its thickness can be resolved.");
 	}
 }
 

@@ -37,8 +37,8 @@ private:
 	int  processesCount = 1;
 
 	vector<gimpm::PartingLine*> lines();
-	void                 requirePermeable() const;
-	void                 requireWhole() const;
+	void                        requirePermeable() const;
+	void                        requireWhole() const;
 };
 
 } // namespace yade

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Thin rigid bodies as lines that part the soil.
+#include "core/structures/rigid_lines.hpp"
+#include "scenes.hpp"
+#include <gtest/gtest.h>
+
+namespace gimpm::testRigidLines {
+namespace {
+
+	RigidBody<2> sheet(const Vec<2>& from, const Vec<2>& to)
+	{
+		RigidBody<2> body;
+		body.shape.kind       = RigidKind::sheet;
+		body.shape.corners    = { from, to };
+		body.shape.isTwoSided = true;
+		return body;
+	}
+
+	RigidBody<2> plank(const Vec<2>& middle, const Vec<2>& half)
+	{
+		RigidBody<2> body;
+		body.shape.kind     = RigidKind::block;
+		body.shape.halfSize = half;
+		body.begin.position = middle;
+		return body;
+	}
+
+	/// Sheets in any order and direction make one line as long as no more than two meet; thick blocks make none.
+	TEST(RigidLines, JoinThinBodiesThatShareEnds)
+	{
+		const auto open = linesOf({ sheet({ 1, 0 }, { 2, 0 }), plank({ 5, 5 }, { 1, 1 }), sheet({ 1, 0 }, { 1, -1 }), sheet({ 3, 1 }, { 2, 0 }) }, 0.5);
+		ASSERT_EQ(open.size(), 1u);
+		EXPECT_EQ(open[0].positions.size(), 4u);
+		EXPECT_EQ(open[0].bodies.size(), 3u);
+		EXPECT_FALSE(open[0].isClosed);
+
+		const auto ring = linesOf({ sheet({ 0, 0 }, { 1, 0 }), sheet({ 0, 1 }, { 0, 0 }), sheet({ 1, 0 }, { 0, 1 }) }, 0.5);
+		ASSERT_EQ(ring.size(), 1u);
+		EXPECT_TRUE(ring[0].isClosed);
+
+		EXPECT_EQ(linesOf({ sheet({ 0, 0 }, { 1, 0 }), sheet({ 1, 0 }, { 2, 0 }), sheet({ 1, 0 }, { 1, 1 }) }, 0.5).size(), 3u);
+
+		const auto alone = linesOf({ plank({ 1, 2 }, { 0.1, 2 }) }, 0.5);
+		ASSERT_EQ(alone.size(), 1u);
+		EXPECT_LT((alone[0].positions[0] - alone[0].positions[1] - Vec<2>(0, 4)).norm(), 1e-12);
+	}
+
+	/// The cut of a sheet ends at the first line of the grid beyond its tip, and goes through at the top.
+	TEST(RigidLines, PartSoilToTheLineBeyondTheTip)
+	{
+		for (const auto& [tip, last] : { std::pair(1., 3), std::pair(0.8, 2), std::pair(1.2, 3) }) {
+			Grid<2> grid;
+			grid.cellSize       = 0.5;
+			PointCloud<2> cloud = block<2>(grid, { 6, 4 }, 2);
+			auto          lines = linesOf({ sheet({ 1.5, tip }, { 1.5, 2.2 }) }, grid.cellSize);
+			partSoil({ &lines[0] }, cloud, grid);
+			ASSERT_EQ(lines[0].layer, 1);
+			const auto isOwn = [&](int y) { return grid.parting->isOwn(Grid<2>::key({ 3, y }, 0, 1)); };
+			EXPECT_TRUE(isOwn(last) && isOwn(4)) << tip;
+			EXPECT_FALSE(isOwn(last - 1)) << tip;
+		}
+	}
+
+} // namespace
+} // namespace gimpm::testRigidLines
