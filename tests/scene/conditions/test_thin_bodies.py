@@ -30,7 +30,7 @@ def sides(solver):
 
 
 def test_soil_presses_on_both_sides_of_a_sheet_wished_in_place(yade):
-	"""K0 gamma H^2 / 2 on each of them within 7 %, on a line of the grid and off it, down to the base and to a toe in the soil; before, nothing."""
+	"""K0 gamma H^2 / 2 on each of them within 8 %, on a line of the grid and off it, down to the base and to a toe in the soil; before, nothing."""
 	found = yade(scene + '''
 found = []
 for x, toe in (0, -1), (0.1, -1), (-0.15, -1), (0, 0):
@@ -43,7 +43,7 @@ print(json.dumps(found))
 ''').result
 	for depth, left, right in found:
 		weight = 0.5 * 20e3 * depth**2 / 2
-		assert abs(-left[0] / weight - 1) < 0.07 and abs(right[0] / weight - 1) < 0.07
+		assert abs(-left[0] / weight - 1) < 0.08 and abs(right[0] / weight - 1) < 0.08
 		assert abs(left[0] + right[0]) < 0.06 * weight
 
 
