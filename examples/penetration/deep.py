@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rigid bodies deep in clay without weight (Tresca, c_u = 10 kPa, G = 200 c_u, nu = 0.49, F-bar), by MpmContact.
+"""Rigid bodies deep in clay without weight (Tresca, c_u = 10 kPa, G = 200 c_u unless said otherwise, nu = 0.49, F-bar), by MpmContact.
 
 	cone   of 60 degrees, around the axis, its shoulder one radius deep as it begins: resistance over c_u; Lu et al. (2004) 3.4 + 1.6 ln(G / c_u) + 1.3 rough
 	pile   ten radii deep, around the axis, rough up to half of c_u: jacked down, let go, and jacked again. Its shaft bears half of c_u, its base 9 c_u (Skempton 1951), and what
@@ -26,11 +26,13 @@ options = readOptions('Rigid bodies deep in clay.',
         pointsPerCell=(3, 'material points per cell and axis'),
         depth=(0., 'way in radii; 0: 10 of the cone, 0.4 of the pile, 2 of the bar'),
         rough=(-1., 'adhesion over c_u; -1: 0.5 on the pile, none on cone and bar'),
+        rigidity=(200., 'shear modulus over c_u'),
+        halvings=(0, 'most halvings of the cells at edges (MpmGrid.adaptation)'),
         stiffness=(10., 'of the contact, over E / h'),
         stepsPerCell=(8, 'load steps while cone or bar move by a cell'),
         picture=(1, '1: draw one, and write files for ParaView, 0: only numbers'))
 R, cu, nu = 1., 1e4, 0.49
-G = 200 * cu
+G = options.rigidity * cu
 h = R / options.cells
 isCone, isPile, isBar = (options.scene == name for name in ('cone', 'pile', 'tbar'))
 if not (isCone or isPile or isBar): sys.exit(f"deep.py: there is no scene '{options.scene}', but cone, pile and tbar")
@@ -74,7 +76,8 @@ def clay(line, low):
 	high = lambda k: -3.5 * R + 1.5 * k * R if isBar else inf
 	boxes = [MpmRefinement(min=(-inf, low - 3 * R * 2**k, -inf), max=(3 * R * 2**k, high(k), inf), halvings=halvings - k) for k in range(halvings)]
 	if not isBar: boxes.append(MpmRefinement(min=(-inf, -h / 2, -inf), halvings=halvings))  # a pressure wants cells of one size along its surface
-	grid = MpmGrid(cellSize=size, axisymmetric=not isBar, refinements=boxes)
+	adaptation = [MpmAdaptation(halvings=halvings + options.halvings)] if options.halvings else []
+	grid = MpmGrid(cellSize=size, axisymmetric=not isBar, refinements=boxes, adaptation=adaptation)
 	O.materials.append(MpmTrescaMat(young=2 * (1 + nu) * G, poisson=nu, density=1, undrainedStrength=cu, label='clay'))
 	points = O.bodies.append(mpm.fill(mpm.polygon([(0, -deep), (width, -deep), (width, 0), *line]), grid, options.pointsPerCell, 'clay'))
 	mpm.assign(stress=np.repeat(-pressure * np.eye(3)[None], len(points), axis=0))
@@ -106,7 +109,8 @@ sources = {'Skempton': 'Skempton 1951', 'adhesion': 'what was set', 'Randolph an
 
 def compare(what, value, exact):
 	print(f'{what} = {value:.3f}, {exact:.3f} ({100 * (value / exact - 1):+.1f} %)')
-	compared(f'{options.scene}{", rough" if rough == 1 else ""}, {options.cells} cells over the radius: {what.rpartition(", ")[0]}', value, exact, sources[what.rpartition(', ')[2]])
+	which = (', rough' if rough == 1 else '') + (f', G = {options.rigidity:g} c_u' if options.rigidity != 200 else '') + (f', halved {options.halvings} times at edges' if options.halvings else '')
+	compared(f'{options.scene}{which}, {options.cells} cells over the radius: {what.rpartition(", ")[0]}', value, exact, sources[what.rpartition(', ')[2]])
 	return value / exact - 1
 
 

@@ -17,4 +17,8 @@ inline shared_ptr<Body> bodyAt(const Scene& scene, Body::id_t id)
 	return scene.bodies->exists(id) ? (*scene.bodies)[unsigned(id)] : nullptr;
 }
 
+// Lets go of bodies, also in YADE's background thread. Those that a script has erased meanwhile end here, and with
+// them the objects of Python that they came from, for which Python's lock is needed.
+void release(vector<shared_ptr<Body>>, const Scene&);
+
 } // namespace yade

@@ -555,3 +555,27 @@ rolls('clump that slides', spin=0, made=roller)
 	found = {text.split('\n')[0]: text.count('is free and rolls: on few cells it is late, most of all in MpmImplicitEngine') for text in said}
 	assert found == {'coarse': 1, 'fine': 0, 'in time': 0, 'slides': 0, 'begins': 0, 'clump': 1, 'clump that slides': 0}, said
 	assert 'a Sphere with 2 cells over its radius' in said[0] and 'a clump with 2 cells between its centre and the soil' in said[5]
+
+
+def test_a_body_erased_while_the_scene_runs_ends_with_the_lock_of_Python(yade):
+	"""An object of Python that a body keeps ends with it, after the step in which a script has erased the body; without that lock Python ends the process."""
+	ended = yade(scene + '''
+import time
+ended = []
+class Kept:
+	def __del__(self): ended.append(O.iter)
+solver = soil(h=0.05, high=(4, 2), contacts=[MpmContact(friction=0.3, mask=1)])
+low = utils.box((2, 2.5, 0), (3, 0.5, 1), material='rigid', fixed=True)
+low.kept = Kept()
+number = O.bodies.append(low)
+del low
+box((2, 9, 0))
+O.run(3)
+while not O.running: time.sleep(0.001)
+time.sleep(0.1)
+O.bodies.erase(number)
+before = len(ended)
+O.wait()
+print(json.dumps([before, len(ended)]))
+''').result
+	assert ended in ([0, 1], [1, 1])

@@ -8,17 +8,19 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Distance at which a line enters a box; infinite if it passes by. A line along a face of it just passes by.
-template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
+/// Distance at which a line comes as near to a box as that, across the line; infinite if it passes by. A line along a
+/// face of the box just passes by.
+template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain, double beside = 0)
 {
 	double first = -infinite, last = infinite;
 	for (int a = 0; a < Dim; ++a) {
 		const double away = domain.centre[a] - position[a];
+		const double wide = domain.half[a] + beside * std::sqrt(std::max(0., 1 - along[a] * along[a]));
 		if (std::abs(along[a]) < 1e-12) {
-			if (std::abs(away) >= domain.half[a]) return infinite;
+			if (std::abs(away) >= wide) return infinite;
 			continue;
 		}
-		const double middle = away / along[a], half = std::abs(domain.half[a] / along[a]);
+		const double middle = away / along[a], half = std::abs(wide / along[a]);
 		first = std::max(first, middle - half), last = std::min(last, middle + half);
 	}
 	return first < last ? first : infinite;
@@ -75,7 +77,7 @@ template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const
 	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!d.isInFrontOf(normal)) return;
 		const double straight = entry(position, normal, d);
-		const double here     = d.isPassed(position, normal, beside) ? infinite : (d.centre - position).dot(normal) - normal.cwiseAbs().dot(d.half);
+		const double here     = entry(position, normal, d, beside);
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});

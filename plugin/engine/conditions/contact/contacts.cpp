@@ -91,6 +91,16 @@ template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : s
 		given.push_back(boost::static_pointer_cast<MpmContact>(listed.condition));
 }
 
+template <int Dim> Contacts<Dim>::~Contacts()
+{
+	vector<shared_ptr<Body>> bodies;
+	for (Owner& owner : owners)
+		bodies.push_back(std::move(owner.body));
+	for (Member& member : members)
+		bodies.push_back(std::move(member.body));
+	if (scene) release(std::move(bodies), *scene);
+}
+
 template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
 	const size_t count = members.size();
@@ -225,7 +235,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
 	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
-	cellSize = model.grid.cellSize;
+	cellSize = model.grid.cellSize, scene = &around.scene;
 	inItsWay = cannotPart(around.analysis, model.processes->size(), Dim);
 	inTime   = around.analysis.isDynamic();
 	for (const auto& material : model.materials)

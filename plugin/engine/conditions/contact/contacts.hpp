@@ -19,6 +19,8 @@ namespace yade {
 template <int Dim> class Contacts : public Condition<Dim> {
 public:
 	explicit Contacts(const MpmCondition::Group&);
+	Contacts(const Contacts&) = delete;
+	~Contacts() override;
 
 	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
 
@@ -91,7 +93,8 @@ private:
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
 
 	vector<shared_ptr<MpmContact>>        given;
-	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
+	const Scene*                          scene = nullptr; // of its bodies, once it has any
+	shared_ptr<gimpm::ContactSystem<Dim>> system;          // its terms refer to it
 	vector<Owner>                         owners;
 	Places                                ownersById;
 	vector<Member>                        members; // members in the order of the system's bodies
