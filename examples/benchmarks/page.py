@@ -126,6 +126,17 @@ def features(results):
 	return FEATURES.format(**base) + table(heads, rows)
 
 
+def water(results):
+	saturated, rows = {r['law']: r for r in results['runs'] if not r['isDrying']}, []
+	for r in results['runs']:
+		times, per = split(r), 1e3 / r['steps']
+		rows.append([
+		        f"{r['law']}, {'with suction' if r['isDrying'] else 'saturated'}", f"{per * r['run']:.1f}", f"{r['run'] / saturated[r['law']]['run']:.2f}",
+		        f"{r['solves'] / r['steps']:.2f}", f"{r['factorisations'] / r['steps']:.2f}", *(f'{per * times[phase]:.1f}' for phase in ('assembly', 'factorise', 'solve', 'rest'))
+		])
+	return WATER.format(revision=results['revision'], **results['runs'][0]) + table(['soil', 'step [ms]', 'ratio', 'solves a step', 'factors a step', 'of it assembly', 'factorise', 'solve', 'rest'], rows)
+
+
 def start(seconds):
 	rows = [[what, f'{seconds[name]:.2f}', f"{seconds[name] - seconds['without']:+.2f}"] for name, what in STARTS.items()]
 	return START + table(['YADE', 'start [s]', 'more than without'], rows)
@@ -269,7 +280,7 @@ def picture(results, path):
 	pyplot.close(figure)
 
 
-sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, pieces=pieces, sharing=sharing, division=division, large=large)
+sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, water=water, start=start, bodies=bodies, solvers=solvers, processes=processes, pieces=pieces, sharing=sharing, division=division, large=large)
 
 
 def comparison(found, revision):
@@ -347,6 +358,13 @@ that of the run is the peak on top of it.
 FEATURES = """### What each feature costs
 
 The first {steps} steps of the slope at h = 0.5 m ({points} points, {unknowns} unknowns), one thread; each row differs from the first in one thing. Times are per step.
+
+"""
+
+WATER = """### Soil with suction
+
+A cut of 8 m with {points} points and {unknowns} unknowns, {steps} steps of half an hour, one thread: saturated soil into which water flows by its base, and soil with
+suction under rain. The flow of the first is linear. That of the second is not, and its matrix is not symmetric. Revision: {revision}.
 
 """
 

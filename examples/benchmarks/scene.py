@@ -5,6 +5,7 @@ import os
 import sys
 import tempfile
 import time
+from math import radians
 from types import SimpleNamespace
 
 from yade import mpm, pack, utils
@@ -24,6 +25,7 @@ defaults = dict(
         reuseFactor=True,
         linearSolver='auto',
         elastic=False,
+        isDrying=False, # its pores need not be full, in the scene `water`
         fBar=False,
         recorder=False, # writes all material points after every step, or these fields of them
         arrays=False, # reads all material points after every step
@@ -113,6 +115,30 @@ def block():
 	return dict(points=len(mpm.arrays()['id']), own=len([body for body in O.bodies if body]), run=run, peaks=peaks)
 
 
+def water():
+	"""A cut in silt into which water flows for three steps of half an hour, and then for those that are measured: saturated, by its base, or with suction, as rain."""
+	h, silt = setting.cellSize, dict(young=5e7, poisson=.3, density=1950, conductivity=5e-6, porosity=.42, label='silt')
+	if setting.isDrying: silt['retention'] = MpmVanGenuchten(alpha=1, n=1.8, residual=.15)
+	O.materials.append(MpmElasticMat(**silt) if setting.elastic else MpmMohrCoulombMat(cohesion=20e3, frictionAngle=radians(34), dilationAngle=0, **silt))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (24, 0), (24, 12), (14, 12), (9, 4), (0, 4)]), grid, 2, 'silt'))
+	ground, base = [(24, 12), (14, 12), (9, 4), (0, 4)], [(0, 0), (24, 0)]
+	if setting.isDrying:
+		mpm.assign(excessPressure=[9810 * (2 - y) for y in mpm.arrays()['pos'][:, 1]])
+		drains = [MpmDrain(surface=ground, rain=2.8e-6), MpmDrain(surface=base, pressure=9810 * 2)]
+	else: drains = [MpmDrain(surface=ground, pressure=0), MpmDrain(surface=base, flux=-2.8e-6)]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(24, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	global solver, ended # for afterStep
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=held, flow=MpmFlow(total=setting.isDrying, drains=drains), loadCurve=[(0, 1), (1, 1)])
+	solver.verbosity = 0
+	O.engines, O.dt = [solver], 1800
+	O.run(3, wait=True)
+	O.engines = [solver, PyRunner(iterPeriod=1, command='afterStep()')]
+	begin = ended = time.perf_counter()
+	O.run(setting.steps, wait=True)
+	return dict(points=len(mpm.arrays()['id']), unknowns=solver.dofs, steps=setting.steps, **count, times=times, run=ended - begin)
+
+
 def walls(h):
 	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xyz' if setting.depth else 'xy')]
 	if setting.depth: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, setting.depth * h), fix='z')]
@@ -156,4 +182,4 @@ def points():
 	return appended(lambda: mpm.fill(pack.inAlignedBox((0, 0, -1), (side / 2, side / 2, 1)), MpmGrid(cellSize=1), 2, 'soil'))
 
 
-print(json.dumps(dict(slope=slope, block=block, points=points, spheres=spheres)[setting.scene]()), flush=True)
+print(json.dumps(dict(slope=slope, water=water, block=block, points=points, spheres=spheres)[setting.scene]()), flush=True)

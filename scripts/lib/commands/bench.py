@@ -11,6 +11,7 @@
   scenes     the largest slope of the paper and a slice of it in 3D, each with 1 and 2 threads, with all shortcuts and with full Newton from zero
   sizes      cost and memory of a point, from 1e3 to 1e5 points
   features   what each feature costs, switched on or off by itself
+  water      a step of soil with suction beside one of saturated soil
   start      YADE's start with and without the plugin
   bodies     a million material points against a million spheres
   solvers    iterations and seconds of one solve in 3D: direct, by conjugate gradients, with algebraic multigrid (needs scripts/setup --with-petsc)
@@ -156,6 +157,17 @@ def sizes(here):
 def features(here):
 	plan = dict(cellSize=1, steps=2) if options.quick else dict(cellSize=.5, steps=20)
 	return {name: best(here, **plan | change) for name, change in variants.items()}
+
+
+def water(here):
+	"""A cut under rain, and the same soil where all pores are full, in turn; the quickest of three runs of each."""
+	plan, found = dict(scene='water', cellSize=1, steps=2) if options.quick else dict(scene='water', cellSize=.25, steps=20), {}
+	for _ in range(1 if options.quick else 3):
+		for law in 'elastic', 'Mohr-Coulomb':
+			for isDrying in False, True:
+				found.setdefault((law, isDrying), []).append(here.scene(**plan, elastic=law == 'elastic', isDrying=isDrying))
+	runs = [dict(law=law, isDrying=isDrying, **min(each, key=lambda run: run['run'])) for (law, isDrying), each in found.items()]
+	return dict(revision=page.machine()['revision'], runs=runs)
 
 
 def best(here, **settings):
@@ -312,7 +324,7 @@ def sameBits(here, there):
 	return same
 
 
-parts = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, pieces=pieces, sharing=sharing, division=division, large=large)
+parts = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, water=water, start=start, bodies=bodies, solvers=solvers, processes=processes, pieces=pieces, sharing=sharing, division=division, large=large)
 
 
 def main(study, arguments):
