@@ -6,6 +6,7 @@ import re
 
 import pages
 import results
+from peers.scenes import scenes
 
 root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 examples = os.path.join(root, 'examples')
@@ -58,7 +59,9 @@ groups = {
         'Contact and penetration': ['penetration', 'adaptive', 'grains_on_soil', 'meeting', 'free_bodies'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
+        'Beside other programs': ['peers'],
 }
+studiesOnly = 'peers',  # folders of studies, the others of examples
 
 
 def kept(folder, of=examples):
@@ -99,10 +102,24 @@ def ofSplitting():
 		           ours=f"{float(row['measured']):.4g}", theirs=f"{float(row['exact']):.4g}", unit='', source=source)
 
 
+def ofPeers():
+	"""The plugin beside the best elements of each other program, on the finest grid that scripts/peers keeps."""
+	home = os.path.join(root, 'plugin', 'docs', 'studies', 'peers')
+	versions = {row['program']: row['version'].split('+')[0].split('-')[0].split('~')[0] for row in results.read(os.path.join(home, 'programs.csv'))}
+	for scene, of in scenes.items():
+		rows = {(row['program'], row['elements']): row for row in results.read(os.path.join(home, scene + '.csv'))}  # the last of each kind is on the finest grid
+		ours = rows['plugin', 'cells, F-bar' if scene == 'footing' else 'cells']
+		for program, kind in {program: kind for program, kind in rows if program != 'plugin'}.items():
+			theirs = rows[program, kind]
+			yield dict(
+			        command=f'scripts/peers --scenes {scene}', quantity=f"{of.quantity}, h = {ours['h [m]']} m", ours=ours['value'], theirs=theirs['value'], unit=of.unit,
+			        source=f'{program} {versions[program]}, {kind}')
+
+
 def everything(of=examples):
 	"""Rows by folder."""
 	found = {folder: kept(folder, of) for folder in runs}
-	return found | dict(paper=list(ofPaper()), splitting=list(ofSplitting()))
+	return found | dict(paper=list(ofPaper()), splitting=list(ofSplitting()), peers=list(ofPeers()))
 
 
 def difference(row):
@@ -163,6 +180,11 @@ def rowsOf(rows):
 	return lines
 
 
+def linkOf(folder):
+	if folder == 'tasks': return '[the course](../../../../examples/README.md#tasks)'
+	return f'[{folder}]({f"../{folder}.md" if folder in studiesOnly else f"../../../../examples/{folder}/README.md"})'
+
+
 def tables(found):
 	"""File, title, rows and note of all tables."""
 	rows = [row for of in found.values() for row in of]
@@ -170,7 +192,7 @@ def tables(found):
 	summary = dict(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))
 	yield 'summary.csv', 'Summary', [['number', 'value'], *summary.items()], 'Number of comparisons, median of their differences, and the difference that nine of ten are below.'
 	for group, folders in groups.items():
-		links = ', '.join(f'[{folder}](../../../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../../../examples/README.md#tasks)'
+		links = ', '.join(linkOf(folder) for folder in folders)
 		yield group.lower().replace(',', '').replace(' ', '-') + '.csv', group, rowsOf(row for folder in folders for row in found[folder]), f'From {links}.'
 	files, forms = {test: file for file, test, _ in ofTests()}, closedForms()
 	listed = [['test', 'compared with', 'file'], *([f"`{row['test']}`", row['against'], f"`{files[row['test']]}`"] for row in forms)]
@@ -181,9 +203,39 @@ TESTS = """{count} tests that run on every change compare with closed forms and 
 those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.""".replace('\n', ' ')
 
 
+kinds = {'closed form': 'o', 'other program': 's', 'experiment': '^', 'balance, or itself': 'x'}
+_programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same cut in grains|CalculiX|GetFEM|FEniCS')
+_itself = re.compile('balance|its weight|weight of|what was set|what turns|the same (cells|dam)|nothing changes|by MpmContact|MpmWater of|potential_plane|volume loss|base of the ground bears')
+
+
 def kindOf(source):
-	if 'experiment' in source or 'grains' in source: return 'experiments, grains'
-	return 'published' if re.search(r'\b(19|20)\d\d\b', source) and not re.search('Prandtl|Rankine|Coulomb|Hertz|Boussinesq', source) else 'closed forms, sums by hand'
+	"""Kind of what a number is compared with."""
+	if 'experiment' in source: return 'experiment'
+	if _programs.search(source): return 'other program'
+	return 'balance, or itself' if _itself.search(source) else 'closed form'
+
+
+def _sizes(rows):
+	"""Number of rows, median of their differences, that which nine of ten are below, and the row with the largest."""
+	sizes = sorted(abs(difference(row)) for row in rows)
+	return len(sizes), pages.percent(sizes[len(sizes) // 2]), pages.percent(sizes[int(0.9 * len(sizes))]), max(rows, key=lambda row: abs(difference(row)))
+
+
+def summary(found):
+	"""File, title, rows and note of the tables of the page of one screen: differences by what is compared with, and by group."""
+	rows = [row for of in found.values() for row in of]
+	shown = [['compared with', 'numbers', 'median', 'nine of ten below', 'largest', 'command of the largest']]
+	for kind in kinds:
+		count, median, most, worst = _sizes([row for row in rows if kindOf(row['source']) == kind])
+		shown.append([kind, count, median, most, f"{percentOf(difference(worst))}: {worst['quantity'].split(',')[0]}", f"`{worst['command']}`"])
+	yield 'sources.csv', 'By what it is compared with', [*shown, ['field', 0, '', '', '', '']], 'No measurement in the field is among them yet.'
+	shown = [['group', 'numbers', 'median', 'nine of ten below', 'command']]
+	for group, folders in groups.items():
+		count, median, most, _ = _sizes([row for folder in folders for row in found[folder]])
+		run = [folder for folder in folders if folder in runs]
+		others = dict(paper='scripts/reproduce', splitting='scripts/run splitting', peers='scripts/peers')
+		shown.append([group, count, median, most, ', '.join(f'`{command}`' for command in ([f"scripts/validate --run {' '.join(run)}"] if run else []) + [others[folder] for folder in folders if folder in others])])
+	yield 'groups.csv', 'By group', shown, 'Each number with its command is in [validation](../validation.md).'
 
 
 def picture(found, path):
@@ -192,16 +244,15 @@ def picture(found, path):
 	matplotlib.use('Agg')
 	import matplotlib.pyplot as plt
 	figure, ax = plt.subplots(figsize=(9.5, 5.2), layout='constrained')
-	kinds = {'closed forms, sums by hand': 'o', 'published': 's', 'experiments, grains': '^'}
 	for kind, marker in kinds.items():
 		x, y = [], []
 		for number, folders in enumerate(groups.values()):
 			rows = [row for folder in folders for row in found[folder] if kindOf(row['source']) == kind]
 			x += [max(100 * abs(difference(row)), 1e-3) for row in rows]
 			y += [number + 0.5 * ((3 * i) % 7 - 3) / 7 for i in range(len(rows))]  # beside each other, that none hides another
-		ax.plot(x, y, marker, label=kind, alpha=0.6, markersize=5, markeredgewidth=0)
+		ax.plot(x, y, marker, label=kind, alpha=0.6, markersize=5, markeredgewidth=1 if marker == 'x' else 0)
 	for edge in 1, 10: ax.axvline(edge, color='0.7', linewidth=0.8, zorder=0)
 	ax.set(xscale='log', xlim=(7e-4, 200), ylim=(len(groups) - 0.5, -0.5), yticks=range(len(groups)), yticklabels=list(groups), xlabel='difference [%]')
 	ax.set_xticks([1e-3, 1e-2, 0.1, 1, 10, 100], ['below 0.001', '0.01', '0.1', '1', '10', '100'])
-	ax.legend(frameon=False, loc='upper center', bbox_to_anchor=(0.5, 1.1), ncols=3)
+	ax.legend(frameon=False, loc='upper center', bbox_to_anchor=(0.5, 1.1), ncols=4)
 	figure.savefig(path, dpi=120)

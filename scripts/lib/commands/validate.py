@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Writes the page of all validation, plugin/docs/studies/validation.md with its picture, from the tables that the examples keep of their comparisons.
+"""Writes the pages of all validation, plugin/docs/studies/validation.md and how_right.md with their picture, from the kept tables of comparisons.
 
-	scripts/validate                        the page, in a second
+	scripts/validate                        the pages, in a second
 	scripts/validate --run                  runs the examples first, a quarter of an hour on one core
 	scripts/validate --run column tasks     some of them
 """
 import os
 import shlex
+import shutil
 import subprocess
 import tempfile
 
@@ -37,7 +38,11 @@ def main(study, arguments):
 	studies.keepAll(target, validation.tables(found), '')
 	validation.picture(found, os.path.join(target, 'validation.png'))
 	if options.out: studies.report(target, study.title, '![Differences by group](validation.png)')
-	else: replace(target + '.md', studies.page('validation'))
+	else:
+		replace(target + '.md', studies.page('validation'))
+		right = os.path.join(studies.home, 'how_right')
+		shutil.copy(os.path.join(target, 'validation.png'), os.path.join(right, 'how_right.png'))
+		studies.publish('how_right', validation.summary(found), '')
 	study.summary = f'Written: {target}'
 
 

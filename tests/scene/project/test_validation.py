@@ -12,6 +12,7 @@ from conftest import root
 sys.path.insert(0, str(root / 'scripts' / 'lib'))
 import studies
 import validation
+from test_words import words
 
 home = root / 'plugin/docs/studies/validation'
 
@@ -25,6 +26,19 @@ def test_the_page_is_what_the_tables_say():
 	made = list(validation.tables(validation.everything()))
 	assert [(row['file'], row['title']) for row in studies.indexOf(home)] == [(file, title) for file, title, *_ in made]
 	for file, _, rows, _ in made: assert studies.rowsOf(home / file) == [[str(cell) for cell in row] for row in rows], file
+
+
+def test_the_page_of_one_screen_is_what_the_tables_say():
+	"""At most 800 words with its tables; each comparison is of one kind, and each row has a command."""
+	made, kept = list(validation.summary(validation.everything())), root / 'plugin/docs/studies/how_right'
+	assert [(row['file'], row['title']) for row in studies.indexOf(kept)] == [(file, title) for file, title, *_ in made]
+	for file, _, rows, _ in made: assert studies.rowsOf(kept / file) == [[str(cell) for cell in row] for row in rows], file
+	assert words((root / 'plugin/docs/studies/how_right.md').read_text()) <= 800
+	(_, _, sources, _), (_, _, groups, _) = made
+	assert sum(row[1] for row in sources[1:]) == sum(row[1] for row in groups[1:]) == sum(map(len, validation.everything().values()))
+	assert all('`' in row[-1] for row in groups[1:] + sources[1:-1])
+	kinds = dict(zip(['Terzaghi 1923', 'CalculiX 2.20, CPE4', 'Lube et al. 2005, experiments', 'its weight'], validation.kinds))
+	assert {source: validation.kindOf(source) for source in kinds} == kinds
 
 
 def test_each_run_has_rows_and_each_row_a_run():
