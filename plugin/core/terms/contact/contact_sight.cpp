@@ -68,7 +68,8 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell.
+/// then those count which it misses by a quarter of a cell. What it hits within half a cell counts instead, as far as all
+/// domains are known, however far the body moves.
 template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
@@ -81,7 +82,7 @@ template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});
-	return hit < infinite && hit < near + 2 * beside ? hit : near;
+	return hit < 2 * beside + std::min(0., near) ? hit : near;
 }
 
 /// Finds the soil in front of a contact point. Its amount is a volume, which does not jump: that in a box in front of
