@@ -378,12 +378,16 @@ def test_a_file_that_fails_while_the_run_goes_on_ends_it(yade):
 	"""Files are written beside the next step."""
 	run = yade(
 	        '''
-import json, os, resource
+import json, os, resource, time
 from scenes import *
 column(64)
 recorder = MpmVtkRecorder(fileName='out/column-')
-fill = "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))"
-O.engines += [PyRunner(iterPeriod=1, initRun=True, command=f'if O.iter == 1: {fill}'), recorder]
+
+def fill():
+	while 'points.1.vtu' not in open('out/column-points.pvd').read(): time.sleep(0.01) # until the file before is complete
+	resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))
+
+O.engines += [PyRunner(iterPeriod=1, initRun=True, command='if O.iter == 1: fill()'), recorder]
 message = ''
 try:
 	O.run(8, wait=True)
