@@ -66,9 +66,14 @@ namespace {
 	// materials.
 	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
 	{
+		std::atomic_bool haveAny { false };
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end && !haveAny; ++p)
+				if (!points[p].state->parameters.empty()) haveAny = true;
+		});
 		// Flags by the number of a material, and of a parameter of a class.
 		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1);
-		for (size_t p = 0; p < points.size(); ++p) {
+		for (size_t p = 0; haveAny && p < points.size(); ++p) {
 			if (points[p].state->parameters.empty()) continue;
 			const auto& known = parametersOf(*points[p].material);
 			for (size_t k = 0; k < known.size(); ++k)

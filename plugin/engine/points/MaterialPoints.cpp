@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/MaterialPoints.hpp"
+#include "engine/points/parallel.hpp"
 #include "yade_api/bodies.hpp"
 #include <algorithm>
+#include <atomic>
 #include <typeinfo>
 
 namespace yade {
@@ -126,11 +128,37 @@ int MaterialPoint::materialIndex(const Scene& scene) const
 	return isThis ? id : -1;
 }
 
+namespace {
+	// True if these are all points of the scene, and nothing else is to be refused: as in nearly all steps, which
+	// several threads see sooner.
+	bool areStill(const vector<MaterialPoint>& points, const BodyContainer& bodies, int mask)
+	{
+		const auto firstFrom = [&](size_t id) {
+			return std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, size_t least) { return size_t(p.id) < least; });
+		};
+		std::atomic_bool are { true };
+		inRanges(bodies.size(), [&](size_t begin, size_t end) {
+			auto       point = firstFrom(begin);
+			const auto last  = firstFrom(end);
+			for (size_t id = begin; id < end && are; ++id) {
+				const shared_ptr<Body>& body = bodies[id];
+				if (!body || !maskMatches(*body, mask)) continue;
+				if (point != last && isStillOf(*point, *body)) ++point;
+				else if (dynamic_cast<MpmPoint*>(body->shape.get()) || dynamic_cast<MpmMaterial*>(body->material.get()))
+					are = false;
+			}
+			if (point != last) are = false;
+		});
+		return are;
+	}
+}
+
 void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int mask)
 {
 	const BodiesLock     lock(scene);
 	const BodyContainer& bodies = *scene.bodies;
-	size_t               n      = 0;
+	if (!points.empty() && areStill(points, bodies, mask)) return;
+	size_t n = 0;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];
 		if (!body || !maskMatches(*body, mask)) continue; // null: erased
