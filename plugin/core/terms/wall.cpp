@@ -25,7 +25,7 @@ template <int Dim> Mat<Dim> heldBy(const Wall<Dim>& wall, const Vec<Dim>& normal
 
 } // namespace
 
-template <int Dim> Wall<Dim>::Wall(Surface<Dim> s, double cellSize) : surface(std::move(s))
+template <int Dim> Wall<Dim>::Wall(Surface<Dim> s, double cellSize) : surface(std::move(s)), cellSize(cellSize)
 {
 	surface.refine(pieceLimit * cellSize);
 	tractions.assign(surface.pieces.size(), Vec<Dim>::Zero());
@@ -50,7 +50,7 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 	auto moduli = cellModuli(isConstrained, basis, stiffnessOf, grid);
 	division.complete(leaves, moduli);
 	for (std::size_t g = 0; g < constrainedPieces_.size(); ++g)
-		constrainedPieces_[g].stiffness = wall.penalty * moduli[leafOf[g]] / grid.size(constrainedPieces_[g].at.level);
+		constrainedPieces_[g].stiffness = wall.penalty * moduli[leafOf[g]] / wall.cellSize;
 }
 
 /// On the body.

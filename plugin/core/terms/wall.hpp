@@ -15,11 +15,12 @@ template <int Dim> struct Wall {
 	Wall(Surface<Dim> surface, double cellSize);
 
 	Surface<Dim> surface;
+	double       cellSize; ///< of the smallest cells: the wall is as stiff where cells are larger [m]
 	/// Directions in which material is held; none: along the normal of each piece.
 	std::array<bool, Dim> fixed {};
 	/// Layer of the body that it constrains.
 	int layer = layerOfPosition;
-	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
+	/// The wall gives way by pressure / (penalty * Young's modulus) smallest cells [-].
 	double                penalty = 100;
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
 	std::vector<Vec<Dim>> tractions;                   ///< pieces on the body [Pa]; zero where there is none
@@ -27,7 +28,7 @@ template <int Dim> struct Wall {
 };
 
 /// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where
-/// P is the projection on what is held, E the modulus of the soil in the cell, h its size and t the traction at the start of the
+/// P is the projection on what is held, E the modulus of the soil in the cell, h the size of the smallest ones and t the traction at the start of the
 /// step: the step begins in equilibrium, and what the wall has given way by is in proportion to what it bears. Centres
 /// where the grid holds no material do nothing, and forget.
 template <int Dim> class WallForce : public Term<Dim> {

@@ -96,7 +96,7 @@ def onSizes(term):
 	"""Fine cells everywhere are a fine grid; where their sizes meet, what is alike everywhere stays so."""
 	halved = apart(scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement()]), soft), scene(term, MpmGrid(cellSize=.5), soft))
 	if term in ('bar', 'beam', 'water', *inertia): return halved  # nowhere alike; tests/scene/grid/test_refined_features.py has water and motion across the sizes
-	loads = dict(top=-.05) if term in ('internal force', 'F-bar', 'undrained') else dict(isPressed=term == 'ghost')
+	loads = dict(top=-.05) if term in ('internal force', 'F-bar', 'undrained') else dict(isPressed=term in ('ghost', 'wall'))
 	patch = scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement(max=(3, inf, inf))]), weight=0, steps=1, **loads)
 	return halved, float(np.ptp(patch['stress'][:, 1, 1]) / abs(patch['stress'][:, 1, 1]).max())
 
@@ -144,7 +144,6 @@ others = {
         ('flow', 'refinements'): equal + 'flow',
         # The functions of a ring are those of the middle of its volume, and water that flows differs by as much of a cell.
         ('flow', 'axisymmetric'): 4e-3,
-        ('wall', 'refinements'): equal + 'boundaries[2].surface',
         ('wall', 'axisymmetric'): onRings,
         ('contact', 'axisymmetric'): onRings,
         # Beside the rollers to which the period is compared, domains move by round-off across the edge of what a place sees.
