@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs public user materials of soils from checkouts of their repositories: an element test, a column and a strip each.
+
+	scripts/wild FOLDER                        all laws; five minutes on one core
+	scripts/wild FOLDER --laws Mohr-Coulomb    some laws
+
+FOLDER has checkouts of the repositories in scripts/lib/wild/laws.py, named as these without their owners; nothing is downloaded, and none of their code is in this project. A law whose
+sources are not there is named, and left out. gfortran compiles them. The triaxial test at 100 kPa is compared with a law of the plugin or a closed form; the tangent with differences,
+where the law flows; column and strip, 4 m deep, bear 100 kPa in 20 steps after a geostatic stress. All cases are in results/wild.csv, and are not run again.
+"""
+import os
+import shutil
+
+from wild.laws import laws
+
+study = 'wild'
+values = ['found', 'theirs', 'tangent', 'settlement', 'iterations', 'steps', 'seconds', 'why']
+
+
+def main(study, arguments):
+	study.option('folder', metavar='FOLDER', help='of the checkouts')
+	study.option('--laws', nargs='*', metavar='LAW', default=[], help=f"some of {', '.join(laws)}")
+	options = study.parse(arguments, timeLimit=600)
+	chosen = study.chosen(options.laws, laws, 'law')
+	if not shutil.which('gfortran'): study.fail('gfortran is not installed. Install the package gfortran of Debian.')
+	missing = {name: laws[name].missing(options.folder) for name in chosen}
+	for name in chosen:
+		if missing[name]: print(f'{name}: {laws[name].at(options.folder)} lacks {missing[name][0]}; check out {laws[name].repository} at {laws[name].commit}.')
+	chosen = [name for name in chosen if not missing[name]]
+	if not chosen: study.fail(f'{options.folder} has none of the laws. Give a folder with checkouts of their repositories.')
+	table = study.table(['law', 'case'], values)
+	cases = []
+	for name in chosen:
+		library = os.path.abspath(os.path.join(options.out, 'results', laws[name].repository.split('/')[1] + f'-{list(laws).index(name)}', 'law.so'))
+		os.makedirs(os.path.dirname(library), exist_ok=True)
+		isMade, printed = laws[name].compile(options.folder, library)
+		if not isMade: study.fail(f'{name} does not compile:\n{printed}')
+		cases += [((name, case), f'wild.scenes.{case}', dict(name=name, library=library)) for case in ('element', 'column', 'strip')]
+	study.fill(table, cases, options.time_limit, values, areAlone=True)
+	study.write(tables(chosen, {key: table.row(key) for key, *_ in cases}), command=f'`scripts/wild FOLDER`, {study.provenance}')
+
+
+def said(row):
+	"""First sentence of an exception, without its class."""
+	return row['why'].split(': ', 1)[-1].split('. ')[0].rstrip('.')
+
+
+def tables(chosen, rows):
+	listed = [['law', 'repository', 'commit'], *([name, laws[name].repository, laws[name].commit[:10]] for name in chosen)]
+	yield 'laws.csv', 'Laws', listed
+	elements = [['law', 'found', 'compared with', 'difference', 'by', 'error of the tangent']]
+	for name in chosen:
+		row = rows[name, 'element']
+		if row['why']: elements.append([name, said(row), '', '', '', ''])
+		else: elements.append([name, *(f'{float(row[key]):.5g}' for key in ('found', 'theirs')), f"{100 * (float(row['found']) / float(row['theirs']) - 1):+.2g} %", laws[name].exact, f"{float(row['tangent']):.1e}"])
+	yield 'element.csv', 'Triaxial test at 100 kPa', elements, 'Largest q [Pa]; of Cam clay q/p at a shortening of 0.5.'
+	ground = [['law', 'scene', 'settlement [mm]', 'steps', 'iterations a step', 'seconds a step']]
+	for name in chosen:
+		for case in 'column', 'strip':
+			row = rows[name, case]
+			if row['why']: ground.append([name, case, said(row), '', '', ''])
+			else: ground.append([name, case, f"{1e3 * float(row['settlement']):.3g}", row['steps'], f"{float(row['iterations']):.3g}", f"{float(row['seconds']):.2g}"])
+	yield 'ground.csv', 'Column and strip', ground, '20 steps of load; more where steps were cut.'
