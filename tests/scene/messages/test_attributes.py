@@ -289,7 +289,7 @@ categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
 admitted = {
         **{(f'{class_}.{side}', text): 'no limit on that side' for side in ('min', 'max') for class_ in ('MpmBoundary', 'MpmAbsorbingBoundary', 'MpmRefinement') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
-        **{(f'MpmUserMat.{name}', text): 'as the law has it' for name in ('parameters', 'stateVariables') for text in ('[1]', '()')},
+        **{(f'MpmUserMat.{name}', text): 'as the law has it' for name in ('parameters', 'stateVariables', 'stressTensors', 'strainTensors') for text in ('[1]', '()')},
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
         **{(f'MpmFreeField.{name}', '()'): 'nothing moves beyond' for name in ('times', 'velocities', 'displacements', 'forces')},
