@@ -27,10 +27,10 @@ template <int Dim> struct Wall {
 	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
 };
 
-/// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where
-/// P is the projection on what is held, E the modulus of the soil in the cell, h the size of the smallest ones and t the traction at the start of the
-/// step: the step begins in equilibrium, and what the wall has given way by is in proportion to what it bears. Centres
-/// where the grid holds no material do nothing, and forget.
+/// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion),
+/// where P is the projection on what is held, E the modulus of the soil in the cell, h the size of the smallest ones
+/// and t the traction at the start of the step: the step begins in equilibrium, and what the wall has given way by is
+/// in proportion to what it bears. Centres where the grid holds no material do nothing, and forget.
 template <int Dim> class WallForce : public Term<Dim> {
 public:
 	/// The wall is moved in commit().

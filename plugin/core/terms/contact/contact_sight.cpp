@@ -68,8 +68,8 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell. What it hits within half a cell counts instead, as far as all
-/// domains are known, however far the body moves.
+/// then those count which it misses by a quarter of a cell. What it hits within half a cell counts instead, as far as
+/// all domains are known, however far the body moves.
 template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
