@@ -109,7 +109,7 @@ sources = {'Skempton': 'Skempton 1951', 'adhesion': 'what was set', 'Randolph an
 
 def compare(what, value, exact):
 	print(f'{what} = {value:.3f}, {exact:.3f} ({100 * (value / exact - 1):+.1f} %)')
-	which = (', rough' if rough == 1 else '') + (f', G = {options.rigidity:g} c_u' if options.rigidity != 200 else '') + (f', halved {options.halvings} times at edges' if options.halvings else '')
+	which = (', rough' if rough == 1 else '') + (f', G = {options.rigidity:g} c_u' if options.rigidity != 200 else '') + (', cells halved at edges' if options.halvings else '')
 	compared(f'{options.scene}{which}, {options.cells} cells over the radius: {what.rpartition(", ")[0]}', value, exact, sources[what.rpartition(', ')[2]])
 	return value / exact - 1
 
