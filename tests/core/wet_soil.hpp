@@ -79,5 +79,16 @@ template <int Dim> struct Soil {
 	}
 };
 
+/// Degree of consolidation of a layer that drains at one side, at the time T h^2 / c_v (Terzaghi 1943).
+inline double terzaghi(double T)
+{
+	double degree = 1;
+	for (int k = 0; k < 200; ++k) {
+		const double m = M_PI * (2 * k + 1) / 2;
+		degree -= 2 / (m * m) * std::exp(-m * m * T);
+	}
+	return degree;
+}
+
 inline Surface<2> line(const Vec<2>& from, const Vec<2>& to) { return { { from, to }, { from, to }, { { 0, 1 } } }; }
 } // namespace gimpm

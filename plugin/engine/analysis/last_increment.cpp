@@ -2,7 +2,6 @@
 #include "engine/analysis/last_increment.hpp"
 #include "core/grid/refinement.hpp"
 #include <algorithm>
-#include <optional>
 
 namespace yade {
 
@@ -24,25 +23,30 @@ bool isIncrement(const vector<Real>& numbers)
 	return true;
 }
 
-namespace {
-	// Nodes that are tied to none, and so are of the level of the largest cell around them.
-	template <int Dim> std::optional<gimpm::Key> nodeAt(const Real* place, const gimpm::Grid<Dim>& grid)
-	{
-		const int         most = grid.refinement ? grid.refinement->largest() : 0;
-		gimpm::Index<Dim> node;
-		for (int a = 0; a < Dim; ++a) {
-			const Real smallest = std::ldexp(coordinate(place, a), most);
-			if (std::abs(smallest) > gimpm::Grid<Dim>::indexLimit || smallest != std::round(smallest)) return std::nullopt;
-			node[a] = int(smallest);
-		}
-		const int layer = int(layerOf(place[0]));
-		if (layer > gimpm::Grid<Dim>::mostLayer) return std::nullopt;
-		if (!grid.refinement) return gimpm::Grid<Dim>::key(node, 0, layer);
-		const int level = grid.refinement->largestAt(node);
-		for (int a = 0; a < Dim; ++a)
-			if (gimpm::floorTo(node[a], level) != node[a]) return std::nullopt;
-		return gimpm::Grid<Dim>::key(node, level, layer);
+template <int Dim> std::optional<gimpm::Key> nodeAt(const Real* place, const gimpm::Grid<Dim>& grid)
+{
+	const int         most = grid.refinement ? grid.refinement->largest() : 0;
+	gimpm::Index<Dim> node;
+	for (int a = 0; a < Dim; ++a) {
+		const Real smallest = std::ldexp(coordinate(place, a), most);
+		if (std::abs(smallest) > gimpm::Grid<Dim>::indexLimit || smallest != std::round(smallest)) return std::nullopt;
+		node[a] = int(smallest);
 	}
+	const int layer = int(layerOf(place[0]));
+	if (layer > gimpm::Grid<Dim>::mostLayer) return std::nullopt;
+	if (!grid.refinement) return gimpm::Grid<Dim>::key(node, 0, layer);
+	const int level = grid.refinement->largestAt(node);
+	for (int a = 0; a < Dim; ++a)
+		if (gimpm::floorTo(node[a], level) != node[a]) return std::nullopt;
+	return gimpm::Grid<Dim>::key(node, level, layer);
+}
+
+template <int Dim> void putPlace(gimpm::Key node, const gimpm::Grid<Dim>& grid, Real* place)
+{
+	const auto index = gimpm::Grid<Dim>::index(node);
+	for (int a = 0; a < Dim; ++a)
+		place[a] = std::ldexp(index[a], grid.refinement ? -grid.refinement->largest() : 0);
+	place[0] += layerStep * gimpm::Grid<Dim>::layer(node);
 }
 
 template <int Dim> gimpm::LastIncrement<Dim> fromNumbers(const vector<Real>& numbers, Real load, const gimpm::Grid<Dim>& grid)
@@ -63,15 +67,17 @@ template <int Dim> vector<Real> toNumbers(const gimpm::LastIncrement<Dim>& last,
 {
 	vector<Real> numbers(6 * last.nodes.size(), 0);
 	for (size_t n = 0; n < last.nodes.size(); ++n) {
-		const auto place = gimpm::Grid<Dim>::index(last.nodes[n]);
-		for (int a = 0; a < Dim; ++a) {
-			numbers[6 * n + a]     = std::ldexp(place[a], grid.refinement ? -grid.refinement->largest() : 0);
+		putPlace(last.nodes[n], grid, &numbers[6 * n]);
+		for (int a = 0; a < Dim; ++a)
 			numbers[6 * n + 3 + a] = last.displacement[Dim * n + a];
-		}
-		numbers[6 * n] += layerStep * gimpm::Grid<Dim>::layer(last.nodes[n]);
 	}
 	return numbers;
 }
+
+template std::optional<gimpm::Key> nodeAt(const Real*, const gimpm::Grid<2>&);
+template std::optional<gimpm::Key> nodeAt(const Real*, const gimpm::Grid<3>&);
+template void                      putPlace(gimpm::Key, const gimpm::Grid<2>&, Real*);
+template void                      putPlace(gimpm::Key, const gimpm::Grid<3>&, Real*);
 
 template gimpm::LastIncrement<2> fromNumbers(const vector<Real>&, Real, const gimpm::Grid<2>&);
 template gimpm::LastIncrement<3> fromNumbers(const vector<Real>&, Real, const gimpm::Grid<3>&);

@@ -5,8 +5,14 @@
 // not have are left out: its refinements may have changed.
 #include "core/stepping/predictor.hpp"
 #include "yade_api/types.hpp"
+#include <optional>
 
 namespace yade {
+
+// The node at a place, three numbers; none if the grid has none there, or one that is tied. All others are of the level
+// of the largest cell around them.
+template <int Dim> std::optional<gimpm::Key> nodeAt(const Real* place, const gimpm::Grid<Dim>&);
+template <int Dim> void                      putPlace(gimpm::Key node, const gimpm::Grid<Dim>&, Real* place);
 
 bool isIncrement(const vector<Real>& numbers);
 

@@ -23,16 +23,6 @@ namespace {
 		double coefficient() const { return water.pores[0].conductivity * young; } // coefficient of consolidation
 	};
 
-	double terzaghi(double T)
-	{
-		double degree = 1;
-		for (int k = 0; k < 200; ++k) {
-			const double m = M_PI * (2 * k + 1) / 2;
-			degree -= 2 / (m * m) * std::exp(-m * m * T);
-		}
-		return degree;
-	}
-
 	/// Tangent of the forces, which is symmetric with the sign of the pressures' rows where nothing flows and water
 	/// keeps its volume.
 	template <int Dim> void expectTangent(Soil<Dim>& body, bool flows, double verticalRatio = 1)

@@ -146,18 +146,17 @@ def distributed(solver): solver.distributed = True
 def table(solver): O.materials[0].retention = MpmRetentionTable(saturations=[(0, 1), (1, .5)])
 def residual(solver): O.materials[0].retention.residual, O.materials[0].retention.saturated = .6, .5
 def base(solver): O.materials[0].retention = MpmRetention()
-def refined(solver): solver.grid.refinements = [MpmRefinement(min=(-inf, .5, -inf))]
 def both(solver): solver.flow.drains[0].flux = 1e-6
 def staged(solver):
 	O.step()
 	mpm.stages.excavate(mpm.polygon([(0, .7), (1, .7), (1, 1), (0, 1)]), steps=3)
 print(json.dumps([refusal(total=False, top=None), refusal(total=False, retention=False), refusal(dynamic, engine=MpmDynamicEngine), refusal(water), refusal(distributed), refusal(table),
-	refusal(residual), refusal(base), refusal(refined), refusal(both), refusal(staged, top=None)]))
+	refusal(residual), refusal(base), refusal(both), refusal(staged, top=None)]))
 '''
 	).result
 	for text, words in zip(said, [
 	        ('retention curve', 'total=True'), ('rain = 2e-06', 'total=True'), ('MpmDynamicEngine', 'total = True'), ('water[0]', "where = 'outside'"), ('distributed', 'total = True'),
-	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('refinement', ), ('flux', 'rain'), ('mpm.stages', 'total = True')
+	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('flux', 'rain'), ('mpm.stages', 'total = True')
 	]):
 		assert all(word in text for word in words), (text, words)
 

@@ -205,7 +205,6 @@ def test_refused(yade):
 	        'block(); solver.grid.period = (2, 0, 0)': 'MpmGrid.refinements: a grid with period = (2 0 0)',
 	        'block(water=[MpmWater(pressure=lambda x: 0)])': 'cannot go with water[0].pressure, a function,',
 	        "block(newton=MpmNewton(linearSolver='amg'))": "linearSolver = 'amg'",
-	        'block(flow=MpmFlow())': 'cannot go with flow',
 	        'block(); solver.grid.refinements = [MpmRefinement(min=(2, 0, 0), max=(1, 0, 0))]': 'MpmRefinement.min = 2 is greater than max = 1 along x',
 	        'block(); solver.boundaries = [*solver.boundaries, MpmBoundary(min=(1.125, 0.125, -inf), max=(1.125, 0.125, inf), fix="x")]': 'boundaries[2] lies between the nodes of larger cells',
 	}

@@ -22,23 +22,37 @@ template <int Dim> struct Moments {
 		x << 1, away;
 		of += weight * x * x.transpose(), pressures += weight * pressure * x;
 	}
-	/// The same sums about a node that is `offset` cells farther along the axes.
-	void addMoved(const Moments& other, const Vec<Dim>& offset)
+	/// The same sums about a node that is `offset` cells farther along the axes, or a part of them.
+	void addMoved(const Moments& other, const Vec<Dim>& offset, double part = 1)
 	{
 		Matrix move                              = Matrix::Identity();
 		move.template bottomLeftCorner<Dim, 1>() = offset;
-		of += move * other.of * move.transpose(), pressures += move * other.pressures;
+		of += part * move * other.of * move.transpose(), pressures += part * move * other.pressures;
 	}
-	std::optional<double> atNode() const
+	/// `size`: of the cells around the node, in the smallest ones.
+	std::optional<double> atNode(double size) const
 	{
-		constexpr double                            least = 1e-4; // of the eigenvalues, below which points are as good as on a line
-		const Eigen::SelfAdjointEigenSolver<Matrix> axes(of);
+		constexpr double least = 1e-4; // of the eigenvalues, below which points are as good as on a line
+		Vector           unit  = Vector::Constant(1 / size);
+		unit[0]                = 1;
+		const Eigen::SelfAdjointEigenSolver<Matrix> axes(unit.asDiagonal() * of * unit.asDiagonal());
 		const Vector&                               found = axes.eigenvalues();
 		if (!(found[0] > least * found[Dim])) return std::nullopt;
-		return (axes.eigenvectors() * (axes.eigenvectors().transpose() * pressures).cwiseQuotient(found))[0];
+		return (axes.eigenvectors() * (axes.eigenvectors().transpose() * unit.cwiseProduct(pressures)).cwiseQuotient(found))[0];
 	}
 	double mean() const { return of(0, 0) > 0 ? pressures[0] / of(0, 0) : 0; }
 };
+
+/// Gives the sums about tied nodes to their masters.
+template <int Dim> void condense(const CloudBasis<Dim>& basis, std::vector<Moments<Dim>>& around)
+{
+	const auto& ties = basis.affineConstraints;
+	for (std::size_t t = 0; t < ties.node.size(); ++t)
+		for (int m = ties.start[t]; m < ties.start[t + 1]; ++m) {
+			const Index<Dim> offset = Grid<Dim>::index(basis.nodes[ties.node[t]]) - Grid<Dim>::index(basis.nodes[ties.master[m]]);
+			around[ties.master[m]].addMoved(around[ties.node[t]], offset.template cast<double>(), ties.weight[m]);
+		}
+}
 
 } // namespace
 
@@ -59,17 +73,19 @@ Eigen::VectorXd fittedPressures(const CloudBasis<Dim>& basis, const PointCloud<D
 				around[patch.node[n]].add(f.value[n] * cloud.volume0[p] * cloud.volumeRatio(p), away, pressure[p]);
 			}
 		}
+	condense(basis, around);
 	Eigen::VectorXd fitted(Eigen::Index(basis.nodes.size()));
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
-		auto value = around[n].atNode();
+		const int level = Grid<Dim>::level(basis.nodes[n]);
+		auto      value = around[n].atNode(1 << level);
 		if (!value) {
 			Moments<Dim> more;
 			for (int number = 0; number < cellsAround<Dim>; ++number) {
-				const Index<Dim> offset = offsetAround<Dim>(number);
-				const int        other  = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset)));
+				const Index<Dim> offset = offsetAround<Dim>(number) * (1 << level);
+				const int        other = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset), level));
 				if (other >= 0) more.addMoved(around[other], offset.template cast<double>());
 			}
-			value = more.atNode().value_or(around[n].mean());
+			value = more.atNode(1 << level).value_or(around[n].mean());
 		}
 		fitted[n] = *value;
 	}

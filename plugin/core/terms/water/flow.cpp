@@ -65,7 +65,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 		for (Eigen::Index n = 0; n < nodes; ++n) {
 			const auto known = water.atNodes.find(basis.nodes[n]);
 			if (known != water.atNodes.end()) sum[n] = known->second;
-			else if (!water.whole)
+			else if (!water.whole && !grid.refinement)
 				sum[n] = volume[n] > 0 ? sum[n] / volume[n] : 0;
 			else {
 				if (fitted.size() == 0) fitted = fittedPressures(basis, cloud, grid, pressure);
@@ -77,7 +77,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 	const auto commit = [&water](const CloudBasis<Dim>& basis, const Eigen::VectorXd& value, const Eigen::VectorXd&) {
 		water.atNodes.clear();
 		for (std::size_t n = 0; n < basis.nodes.size(); ++n)
-			water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
+			if (!basis.affineConstraints.contains(int(n))) water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
 	};
 	return { { "pore pressure", "Pa", 1, scale, -1 }, begin, commit };
 }
@@ -129,26 +129,27 @@ template <int Dim> bool Flow<Dim>::hasDirections() const
 	return division_.sum(here ? 1. : 0.) > 0;
 }
 
-/// Adds a cell of which all nodes are there, with its weight.
+/// Adds a leaf of which all nodes are there, with its weight.
 template <int Dim> void Flow<Dim>::addCell(Key key, double weight, const StepContext<Dim>& step)
 {
 	Cell       cell { {}, weight };
+	const int  level  = Grid<Dim>::level(key);
 	const auto lowest = Grid<Dim>::index(key);
 	for (int s = 0; s < corners; ++s) {
 		Index<Dim> node = lowest;
 		for (int a = 0; a < Dim; ++a)
-			node[a] += s >> a & 1;
-		cell.node[s] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(node)));
+			node[a] += (s >> a & 1) << level;
+		cell.node[s] = gimpm::find(step.basis.nodes, Grid<Dim>::key(step.grid.first(node), level));
 	}
 	if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
 }
 
-/// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct.
+/// Volumes of the leaves that are filled, over the moduli of what fills them, and how much they conduct.
 template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const StepContext<Dim>& step)
 {
-	const auto&             cells = step.basis.cells;
+	const auto&             cells = step.basis.populatedLeaves();
 	std::vector<double>     volume(cells.size(), 0), softness(cells.size(), 0);
-	const std::vector<char> all(step.basis.populatedLeaves().size(), 1);
+	const std::vector<char> all(cells.size(), 1);
 	cellConductivity_.assign(cells.size(), 0);
 	std::vector<double> compliance(points_.size());
 	for (std::size_t p = 0; p < points_.size(); ++p)
@@ -156,7 +157,8 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	const auto          relative = water_.whole ? relativePermeabilities(points_, compliance) : std::vector<double>();
 	std::vector<double> permeability(water_.whole ? cells.size() : 0, 0.);
 	if (hasDirections()) cellRise_.assign(cells.size(), 0);
-	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
+	forOverlaps(all, step.basis, step.grid, [&](int number, int p, auto within) {
+		const int    cell = step.basis.leaf(number);
 		const double part = within(points_[p].volume);
 		volume[cell] += part, softness[cell] += part * compliance[p];
 		const Pores& pores        = *points_[p].pores;
@@ -182,12 +184,14 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 /// permeabilities. A face has what the less permeable of its two cells has: the pressure may bend where soils meet.
 template <int Dim> void Flow<Dim>::weighFaces(const std::vector<double>& softness, const std::vector<double>& permeability, const StepContext<Dim>& step)
 {
+	const auto levelOf = [&](int leaf) { return Grid<Dim>::level(step.basis.populatedLeaves()[leaf]); };
 	for (auto& face : faces_) {
 		const auto [lower, upper] = cellsAt(face, step.basis, step.grid);
-		const auto passes
+		const double h            = step.grid.size(std::max(levelOf(lower), levelOf(upper)));
+		const auto   passes
 		        = [&, axis = face.axis](int cell) { return conductivityAlong(cell, Vec<Dim>::Unit(axis)) * (water_.whole ? permeability[cell] : 1); };
 		const double ofFlow = water_.duration * std::min(passes(lower), passes(upper));
-		face.stiffness      = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
+		face.stiffness      = water_.ghost / 3 * (std::pow(h, 3) * std::min(softness[lower], softness[upper]) + h * ofFlow);
 	}
 }
 

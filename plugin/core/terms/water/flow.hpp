@@ -51,7 +51,7 @@ public:
 private:
 	static constexpr int corners = 1 << Dim;
 
-	/// A cell whose pressures are kept from changing from node to node.
+	/// A leaf whose pressures are kept from changing from node to node.
 	struct Cell {
 		std::array<int, corners> node;
 		double                   weight; ///< filled volume over the modulus
@@ -124,6 +124,7 @@ private:
 	CurvesOfNodes::Wetness       before_;           ///< as the step begins
 	std::vector<double>          correction_;       ///< what a point has more than its nodes say, over the initial volume
 	std::vector<Cell>            cells_;
+	Eigen::VectorXd              filled_; ///< volume that is filled around each node, if there is rain
 	std::vector<Outlet>          outlets_;
 	std::vector<Attachment<Dim>> vertices_; ///< vertices of the drains, one after the other
 	std::string                  obstacle_;

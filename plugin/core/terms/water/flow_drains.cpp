@@ -48,7 +48,7 @@ std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>
 	return positions;
 }
 
-/// Volume that is filled around each node.
+/// Volume that is filled around each node; of tied ones the mean of their masters'.
 template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, const std::vector<PorePoint>& points)
 {
 	Eigen::VectorXd volume = Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size()));
@@ -58,6 +58,8 @@ template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, c
 			for (int n = 0; n < f.count; ++n)
 				if (patch.node[n] >= 0) volume[patch.node[n]] += f.value[n] * points[basis.order[i]].volume;
 		}
+	basis.affineConstraints.template condense<1>(volume);
+	basis.affineConstraints.template distribute<1>(volume);
 	return volume;
 }
 
@@ -81,6 +83,8 @@ template <int Dim> std::array<double, 1 << Dim> weightsByVolume(const Attachment
 
 template <int Dim> void Flow<Dim>::attachDrains(const StepContext<Dim>& step)
 {
+	const auto isRain = [](const Drain<Dim>& drain) { return drain.kind == Drain<Dim>::Kind::rain; };
+	if (std::any_of(water_.drains.begin(), water_.drains.end(), isRain)) filled_ = filledVolumes(basis_, points_);
 	for (int number = 0; number < int(water_.drains.size()) && obstacle_.empty(); ++number)
 		obstacle_ = attachDrain(number, step);
 }
@@ -98,15 +102,15 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 	std::vector<Vec<Dim>> middles;
 	for (const auto& position : positions)
 		middles.push_back(position.at);
-	const auto filled = drain.kind == Drain<Dim>::Kind::rain ? filledVolumes(basis_, points_) : Eigen::VectorXd();
 	const auto within = Dim == 3 ? corners : attachPositions(middles, step, drain.name);
 	if (!within.obstacle.empty()) return within.obstacle;
 	for (std::size_t i = 0; i < positions.size(); ++i) {
 		const auto& [x, area, normal] = positions[i];
 		const auto&  at               = within.positions[i];
-		const int    cell             = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
+		const double h                = step.grid.size(at.level);
+		const int    cell  = gimpm::find(step.basis.populatedLeaves(), Grid<Dim>::key(step.grid.first(at.index(0) * (1 << at.level)), at.level));
 		const double kappa = cell < 0 ? 0 : conductivityAlong(cell, normal.normalized()), passes = water_.duration * area;
-		const double conductance = passes * drain.conductance * kappa / h_;
+		const double conductance = passes * drain.conductance * kappa / h;
 		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
 		else if (drain.kind == Drain<Dim>::Kind::rain)
 			outlets_.push_back({ number, at, conductance, drain.given < 0 ? drain.driest : 0, false, true, passes * drain.given });
@@ -115,7 +119,7 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 		else
 			outlets_.push_back({ number, at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
 		const bool isRain    = outlets_.back().isRain;
-		outlets_.back().felt = isRain ? weightsByVolume(at, filled, std::pow(h_, Dim) * aroundAxis(x[0], step.grid)) : at.weight;
+		outlets_.back().felt = isRain ? weightsByVolume(at, filled_, std::pow(h, Dim) * aroundAxis(x[0], step.grid)) : at.weight;
 	}
 	return "";
 }
@@ -137,7 +141,10 @@ template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step
 					push[Dim * patch.node[n] + a] += b, size[Dim * patch.node[n] + a] += std::abs(b);
 				}
 		}
-	step.ownedNodes.complete(push), step.ownedNodes.complete(size);
+	for (auto* of : { &push, &size }) {
+		basis_.affineConstraints.template condense<Dim>(*of);
+		step.ownedNodes.complete(*of);
+	}
 	for (Eigen::Index i = 0; i < push.size(); ++i)
 		if (step.dofs.number[i] >= 0 && std::abs(push[i]) > 1e-9 * size[i]) return "";
 	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";

@@ -8,6 +8,7 @@ template <int Dim> void Flow<Dim>::keepGrowth(const State& state) const
 {
 	water_.growth.clear();
 	for (std::size_t n = 0; n < basis_.nodes.size(); ++n) {
+		if (basis_.affineConstraints.contains(int(n))) continue;
 		Eigen::Matrix<double, Dim + 1, 1> grown;
 		grown << state.displacements().template segment<Dim>(Dim * n), state.growth(field)[n];
 		water_.growth.emplace_hint(water_.growth.end(), basis_.nodes[n], grown);

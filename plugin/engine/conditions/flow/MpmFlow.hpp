@@ -71,7 +71,7 @@ public:
 	bool   goesOn() const override { return true; }
 	bool   countsSeconds(const Scene&) const override { return true; }
 	void   requireFitting(const Analysis&, const string& name) const override;
-	string needsEqualCells(const string&) const override { return "flow"; }
+	string needsUntiedNodes(const string&) const override { return "flow"; }
 	string needsOneBody(const string&) const override { return "flow"; }
 	void   tell(Rows&, const Analysis&, const Listed&) const override;
 

@@ -3,6 +3,7 @@
 #include "core/terms/inertia/absorbing.hpp"
 #include "core/terms/water/flow.hpp"
 #include "core/terms/water/frozen_pressures.hpp"
+#include "engine/analysis/last_increment.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 
@@ -91,6 +92,7 @@ namespace {
 template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	constexpr Real ofSteadySoil = 1, ofSoilThatMoves = 0.1;
+	lattice             = model.grid;
 	still               = stillWater(around.analysis);
 	water.modulus       = from->bulkModulus;
 	water.stabilisation = !std::isnan(from->stabilisation) ? from->stabilisation : around.analysis.isDynamic() ? ofSoilThatMoves : ofSteadySoil;
@@ -163,13 +165,11 @@ template <int Dim> void Flows<Dim>::takeNodes()
 		if (std::any_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); })) return;
 	}
 	for (size_t i = 0; i + 3 < from->nodes.size(); i += 4) {
-		gimpm::Index<Dim> node;
-		for (int a = 0; a < Dim; ++a)
-			node[a] = int(from->nodes[i + a]);
-		const gimpm::Key key = gimpm::Grid<Dim>::key(node);
-		water.atNodes[key]   = from->nodes[i + 3];
+		const auto key = nodeAt<Dim>(&from->nodes[i], lattice);
+		if (!key) continue; // cells have changed
+		water.atNodes[*key] = from->nodes[i + 3];
 		if (water.keepsGrowth && from->growth.size() == from->nodes.size())
-			water.growth[key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
+			water.growth[*key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
 	}
 	if (!water.growth.empty()) water.lastDuration = from->lastDuration;
 }
@@ -252,15 +252,14 @@ template <int Dim> void Flows<Dim>::advance(const StepTime& step, gimpm::Model<D
 	}
 }
 
-// Growth is that of the same nodes.
+// Growth is that of the same nodes. Tied ones are left out: theirs follows from others.
 template <int Dim> void Flows<Dim>::keepNodes()
 {
-	from->nodes.clear();
+	from->nodes.assign(4 * water.atNodes.size(), 0);
+	Real* place = from->nodes.data();
 	for (const auto& [key, pressure] : water.atNodes) {
-		const auto place = gimpm::Grid<Dim>::index(key);
-		for (int a = 0; a < 3; ++a)
-			from->nodes.push_back(a < Dim ? place[a] : 0);
-		from->nodes.push_back(pressure);
+		putPlace(key, lattice, place);
+		place[3] = pressure, place += 4;
 	}
 	from->growth.clear();
 	for (const auto& [key, grown] : water.growth) {

@@ -31,6 +31,7 @@ private:
 	shared_ptr<MpmFlow>                                    from;
 	std::map<const MpmRetention*, const gimpm::Retention*> curves;
 	gimpm::SoilWater<Dim>                                  water;
+	gimpm::Grid<Dim>                                       lattice;
 	shared_ptr<MpmWater>                                   still; // null: there is none with a level
 	Real acrossCell = std::numeric_limits<Real>::infinity();      // time in which pressures spread over a cell where they do fastest [s]
 	Real shortest   = acrossCell;                                 // step [s]
