@@ -305,3 +305,29 @@ report = solver.report()
 print(json.dumps([list(report['cells'].values()), solver.clampedDomains, report['domainMismatch']]))
 ''').result
 	assert cells == [256, 80, 28, 48] and clamped == 0 and mismatch < 1e-5
+
+
+def test_water_is_kept_as_cells_adapt(yade):
+	"""A Box pushes saturated soil, and then the cells halved at its corner are joined: the soil keeps its water, and its pressure in the mean."""
+	steps = yade(scene + '''
+grid = MpmGrid(cellSize=.25, adaptation=[MpmAdaptation(halvings=2)])
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, conductivity=1e-7, porosity=.4, label='soil'))
+O.materials.append(FrictMat(label='rigid'))
+O.bodies.append(mpm.fill(mpm.polygon([(0, -1), (2, -1), (2, 0), (0, 0)]), grid, 2, 'soil'))
+box = O.bodies[O.bodies.append(utils.box((0, 1, 0), (.5, 1, 1), material='rigid', fixed=True))]
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -1, inf), fix='xy')]
+flow = MpmFlow(drains=[MpmDrain(surface=[(2, 0), (.6, 0)])])
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[MpmContact(friction=0)], flow=flow, loadCurve=[(0, 1), (1, 1)], label='solver', verbosity=0)]
+found = []
+for velocity, duration in (-1e-4, 10), (-1e-4, 10), (0, 100), (0, 1e-3):
+	if duration < 1: grid.adaptation = []
+	box.state.vel, O.dt = (0, velocity, 0), duration
+	O.step()
+	points = mpm.arrays()
+	found.append([len(solver.report()['cells']), float((points['excessPressure'] * points['volume']).sum()), flow.waterIn - flow.waterOut - flow.waterStored, flow.waterOut])
+print(json.dumps(found))
+''').result
+	assert [sizes for sizes, *_ in steps] == [3, 3, 3, 1]
+	assert steps[3][1] == pytest.approx(steps[2][1], rel=0.03) and steps[2][1] > 0
+	for _, _, lost, out in steps:
+		assert out > 0 and lost == pytest.approx(0, abs=1e-6 * out)
