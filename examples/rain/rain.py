@@ -7,6 +7,8 @@
 	layers two layers under the same rain, the upper one ten times as permeable: heads by a closed form
 	slope  an infinite slope with steady infiltration (Lu and Godt 2008): the factor of safety from the stresses of elastic soil
 	failure  an infinite slope on rock that fails after days of rain: when, beside limit equilibrium with Richards' equation along the normal
+	rest   hydrostatic suction, at several cuts of the cells: how far heads go from it
+	dry    a front that goes into dry sand on cells of 0.1 m: how far saturation goes beyond its bounds
 
 Run it with `scripts/run examples/rain/rain.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -22,7 +24,7 @@ from style import plt
 from volumes import Section, Soil, vanGenuchten
 
 options = readOptions('Rain and suction.',
-        scene=('all', "'all', or one of 'front', 'rain', 'layers', 'slope' and 'failure'"),
+        scene=('all', "'all', or one of 'front', 'rain', 'layers', 'slope', 'failure', 'rest' and 'dry'"),
         cells=(80, 'over the height of the columns and of the slope'),
         cut=(0.5, 'part of a cell that soil fills where the surface cuts one'),
         longest=(0.005, 'longest step, over the time of the scene'))
@@ -204,9 +206,45 @@ def failure(axes):
 	below(axes)
 
 
+def rest():
+	sand, found = MpmVanGenuchten(alpha=3.35, n=2, residual=.102 / .368), []
+	for options.cut in .9, .5, 1e-3, 1e-6:
+		scene(1, (0, -9.81, 0), lambda y: weight * (.3 - y), (None, dict(pressure=.3 * weight)), conductivity=1e-5, porosity=.4, retention=sand)
+		O.engines[0].newton.tolerance = 1e-12
+		O.dt = 1e9
+		for step in range(3):
+			O.step()
+		points = mpm.arrays()
+		found.append(abs(points['excessPressure'] / weight + points['pos'][:, 1] - .3).max())
+	print(f'rest: heads within {max(found):.1e} m of hydrostatic ones, cuts from 0.9 to 1e-6 of a cell')
+
+
+def dry():
+	options.cells, options.cut = 20, .3
+	scene(2.03, (0, -9.81, 0), lambda y: -10 * weight, (dict(pressure=0), None), conductivity=1e-4, porosity=.38, retention=MpmVanGenuchten(alpha=3.5, n=3, residual=.02 / .38))
+	solver, least, most = O.engines[0], 1., 0.
+	solver.newton.minStep = 1 / 4096
+	O.dt = 1
+	O.step()
+	first = .02 / .38 + (1 - .02 / .38) * (1 + 35**3)**(-2 / 3)
+	while O.time < 3600:
+		O.dt = min(1.2 * O.dt, 30)
+		O.step()
+		S = mpm.arrays()['saturation']
+		least, most = min(least, S.min()), max(most, S.max())
+	print(f'dry: saturation no more than {max(first - least, 0):.1e} below that of the dry sand, and {max(most - 1, 0):.1e} above one, on cells of {solver.grid.cellSize:.1f} m')
+
+
 begin = time.time()
+checks = dict(rest=rest, dry=dry)  # without a picture
 scenes = dict(front=front, rain=rain, layers=layers, slope=slope, failure=failure)
-chosen = scenes if options.scene == 'all' else [options.scene]
+if options.scene not in ('all', *scenes, *checks): sys.exit(f"--scene {options.scene} is not admitted: give one of {', '.join(['all', *scenes, *checks])}.")
+chosen = scenes if options.scene == 'all' else [options.scene] if options.scene in scenes else []
+for name in checks if options.scene == 'all' else [options.scene] if options.scene in checks else []:
+	whole = options.cells, options.cut
+	checks[name]()
+	options.cells, options.cut = whole
+if not chosen: sys.exit()
 rows = 2 if len(chosen) > 3 else 1
 figure, axes = plt.subplots(rows, (len(chosen) + rows - 1) // rows, figsize=(4.6 * len(chosen) / rows, 4.6 * rows), layout='constrained', squeeze=False)
 for ax in axes.flat[len(chosen):]: ax.remove()

@@ -68,7 +68,7 @@ namespace {
 		}
 	}
 
-	/// A pressure that grows linearly with the height is found again from that of the points, in the plane and in space.
+	/// A linear pressure is found again from that of the points, in the plane and in space.
 	template <int Dim> void expectStart()
 	{
 		for (const bool isWhole : { false, true }) {

@@ -623,6 +623,8 @@ def test_rain(yade):
 	assert all(float(error) < 3.5 for error in re.findall(r'closed form, (\S+) % of their range', run.stdout)) and run.stdout.count('of their range') == 2
 	assert all(abs(float(error)) < 2.5 for error in re.findall(r'^slope: .* (\S+) %$', run.stdout, re.MULTILINE))
 	assert abs(numbers(r'failure: after .* by limit equilibrium \S+ h, (\S+) %', run.stdout)[0]) < 3
+	assert numbers(r'rest: heads within (\S+) m', run.stdout)[0] < 1e-10
+	assert max(numbers(r'dry: saturation no more than (\S+) below .* and (\S+) above', run.stdout)) < 1e-3
 	assert (run.folder / 'out/rain/rain.png').stat().st_size > 20000
 
 
