@@ -21,14 +21,13 @@ refused |= {(shape, 'period'): ['periodic grid', 'Walls'] for shape in shapes if
 refused[('freeBody', 'period')] = ['periodic grid', 'Walls']
 refused |= {(scheme, stage): ['inertia'] for scheme in dynamic for stage in ('place', 'excavate')}
 refused[('refinement', 'waterFunction')] = ['refinements', 'water', 'function']
-refused |= {(wall, 'refinement'): ['refinements', 'surface'] for wall in walls}
 refused |= {(stage, shaking): ['inertia'] for stage in ('place', 'excavate') for shaking in ('absorbing', 'baseMotion')}
 refused |= {(geometry, 'freeBody'): ['free to move'] for geometry in ('plane', 'axisymmetric')}
 
 # Pairs without a meaning: YADE never moves facets and walls by their forces, what moves the rigid base is the wave that
 # comes through it, and the like
 senseless = {
-        ('facet', 'freeBody'), ('plate', 'freeBody'), ('refinement', 'movingWall'), ('period', 'clump'), ('place', 'excavate'),
+        ('facet', 'freeBody'), ('plate', 'freeBody'), ('period', 'clump'), ('place', 'excavate'),
         ('axisymmetric', 'clump'),  # it would have to lie on the axis, as one body of revolution
 }
 needs = {'friction': [shapes], 'movingWall': [walls], **{shape: [motions] for shape in shapes}, **{motion: [shapes] for motion in motions}}
