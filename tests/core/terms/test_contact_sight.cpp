@@ -42,32 +42,6 @@ namespace {
 		}
 	}
 
-	/// Under a ball, which its domains surround: oblique places see flat soil where it is, though boxes that their
-	/// lines pass reach further up.
-	TEST(ContactSight, ObliqueGapsUnderABallAreThoseOfFlatSoil)
-	{
-		constexpr double radius = 0.8 * h;
-		for (const double aside : { 0., 0.3, 0.7 }) {
-			const Vec<2> middle(aside * spacing, -radius);
-			auto         domains = soil<2>(0);
-			for (auto& domain : domains)
-				domain.outward = (domain.centre - middle).normalized(), domain.gap = (domain.centre - middle).norm() - radius;
-			const SoilNear<2> near(domains, h);
-			for (int i = 0; i < 32; ++i) {
-				const double angle = 2 * M_PI * (i + 0.5) / 32, across = std::cos(angle), up = std::sin(angle);
-				if (up < 0.5) continue;
-				const Vec<2> normal(across, up), place = middle + radius * normal;
-				const double gap   = -place[1] / up;
-				const auto   sight = near.from(place, normal, reach);
-				if (gap < 0.9 * reach) {
-					ASSERT_TRUE(sight);
-					EXPECT_NEAR(sight->gap, gap, 1e-12) << angle << " " << aside;
-				} else if (sight)
-					EXPECT_GT(sight->gap, 0.5 * reach) << angle << " " << aside;
-			}
-		}
-	}
-
 	TYPED_TEST(ContactSightOf, TheGapIsThatOfTheClosestDomainInFront)
 	{
 		constexpr int  Dim = TypeParam::value;

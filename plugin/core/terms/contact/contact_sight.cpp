@@ -8,19 +8,17 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Distance at which a line comes as near to a box as that, across the line; infinite if it passes by. A line along a
-/// face of the box just passes by.
-template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain, double beside = 0)
+/// Distance at which a line enters a box; infinite if it passes by. A line along a face of it just passes by.
+template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
 {
 	double first = -infinite, last = infinite;
 	for (int a = 0; a < Dim; ++a) {
 		const double away = domain.centre[a] - position[a];
-		const double wide = domain.half[a] + beside * std::sqrt(std::max(0., 1 - along[a] * along[a]));
 		if (std::abs(along[a]) < 1e-12) {
-			if (std::abs(away) >= wide) return infinite;
+			if (std::abs(away) >= domain.half[a]) return infinite;
 			continue;
 		}
-		const double middle = away / along[a], half = std::abs(wide / along[a]);
+		const double middle = away / along[a], half = std::abs(domain.half[a] / along[a]);
 		first = std::max(first, middle - half), last = std::min(last, middle + half);
 	}
 	return first < last ? first : infinite;
@@ -68,8 +66,7 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell. What it hits within half a cell counts instead, as far as
-/// all domains are known, however far the body moves.
+/// then those count which it misses by a quarter of a cell.
 template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
@@ -78,11 +75,11 @@ template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const
 	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!d.isInFrontOf(normal)) return;
 		const double straight = entry(position, normal, d);
-		const double here     = entry(position, normal, d, beside);
+		const double here     = d.isPassed(position, normal, beside) ? infinite : (d.centre - position).dot(normal) - normal.cwiseAbs().dot(d.half);
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});
-	return hit < 2 * beside + std::min(0., near) ? hit : near;
+	return hit < infinite && hit < near + 2 * beside ? hit : near;
 }
 
 /// Finds the soil in front of a contact point. Its amount is a volume, which does not jump: that in a box in front of
