@@ -139,7 +139,7 @@ namespace {
 		std::atomic_bool are { true };
 		inRanges(bodies.size(), [&](size_t begin, size_t end) {
 			auto       point = firstFrom(begin);
-			const auto last  = firstFrom(end);
+			const auto last  = end == bodies.size() ? points.end() : firstFrom(end);
 			for (size_t id = begin; id < end && are; ++id) {
 				const shared_ptr<Body>& body = bodies[id];
 				if (!body || !maskMatches(*body, mask)) continue;
