@@ -114,16 +114,16 @@ def sizes(results):
 
 
 def features(results):
-	base = results['as it is']
+	base = results['runs']['as it is']
 	rows = []
-	for name, r in results.items():
+	for name, r in results['runs'].items():
 		times = split(r)
 		rows.append([
 		        name, f"{1e3 * r['run'] / r['steps']:.1f}", f"{r['run'] / base['run']:.2f}", f"{r['solves'] / r['steps']:.2f}",
 		        *(f"{1e3 * times[phase] / r['steps']:.2f}" for phase in ('basis', 'ghost', 'assembly', 'factorise', 'update', 'rest'))
 		])
 	heads = ['setting', 'step [ms]', 'ratio', 'solves a step', 'of it basis', 'ghost', 'assembly', 'factorise', 'update', 'rest']
-	return FEATURES.format(**base) + table(heads, rows)
+	return FEATURES.format(revision=results['revision'], **base) + table(heads, rows)
 
 
 def water(results):
@@ -357,7 +357,7 @@ that of the run is the peak on top of it.
 
 FEATURES = """### What each feature costs
 
-The first {steps} steps of the slope at h = 0.5 m ({points} points, {unknowns} unknowns), one thread; each row differs from the first in one thing. Times are per step.
+The first {steps} steps of the slope at h = 0.5 m ({points} points, {unknowns} unknowns), one thread; each row differs from the first in one thing. Times are per step. Revision: {revision}.
 
 """
 

@@ -156,7 +156,7 @@ def sizes(here):
 
 def features(here):
 	plan = dict(cellSize=1, steps=2) if options.quick else dict(cellSize=.5, steps=20)
-	return {name: best(here, **plan | change) for name, change in variants.items()}
+	return dict(revision=page.machine()['revision'], runs={name: best(here, **plan | change) for name, change in variants.items()})
 
 
 def water(here):
