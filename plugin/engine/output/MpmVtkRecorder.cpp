@@ -43,7 +43,7 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	// Whoever looks for files afterwards finds them complete.
+	// True if nothing follows beside which a file could be written: it has to be complete then.
 	bool isLastOfRun(const Scene& scene) { return !isRunGoingOn() || endsWithThisIteration(scene); }
 
 	VtkCells pointData(const Scene& scene, const Analysis& solver, const Columns& known, const vector<string>& fields, int sectors)

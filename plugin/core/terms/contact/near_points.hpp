@@ -2,6 +2,7 @@
 // Material points near rigid bodies when a step begins.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
+#include "core/grid/refinement.hpp"
 #include "core/terms/contact/rigid_body.hpp"
 
 namespace gimpm {
@@ -18,7 +19,7 @@ std::vector<NearPoint> nearPoints(
         const std::vector<RigidBody<Dim>>&, const PointCloud<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, double motionOfSoil = 0);
 
 /// Largest motion of soil in a step for which it is searched near bodies [m].
-template <int Dim> double reachOfSoil(const Grid<Dim>& grid) { return 0.5 * grid.size(grid.refinement ? grid.refinement->largest() : 0); }
+template <int Dim> double reachOfSoil(const Grid<Dim>& grid) { return 0.5 * largestCell(grid); }
 
 /// From the surface of a body [m].
 template <int Dim> double searchReach(const RigidBody<Dim>& body, const Grid<Dim>& grid) { return reachOfSoil(grid) + body.motion(); }
