@@ -142,8 +142,8 @@ def test_stress_of_a_column(column):
 	assert column['layers'] < 1e-9 and 0.05 < column['one layer'] < 0.5
 
 
-def test_refused(yade):
-	refused = yade('''
+# Notes what is said of arguments that are refused.
+noting = '''
 import json
 from scenes import *
 said = {}
@@ -152,7 +152,11 @@ def refused(name, f, *arguments):
 	try: f(*arguments)
 	except Exception as error: said[name] = type(error).__name__ + ' ' + str(error)
 	else: said[name] = ''
+'''
 
+
+def test_refused(yade):
+	refused = yade(noting + '''
 def scene(cellSize, size=1):
 	column(round(50 / cellSize))
 	O.engines[0].verbosity = 0
@@ -194,19 +198,12 @@ print(json.dumps(said))
 
 def test_until_accurate(yade):
 	"""Numbers that are known, and the column of section 4.1; it says what more would take, and refuses what it cannot judge."""
-	result = yade('''
-import json
-from scenes import *
-said = {}
-
-def refused(name, *arguments, **others):
-	try: mpm.untilAccurate(*arguments, **others)
-	except Exception as error: said[name] = type(error).__name__ + ' ' + str(error)
-	else: said[name] = ''
-
+	result = yade(noting + '''
 first = mpm.untilAccurate(lambda k: 10 + 4 * 0.5**k, 0.05)
 late = mpm.untilAccurate(lambda k: 10 + 4 * 0.5**k, 1e-9, mostSeconds=1e-9)
 never = mpm.untilAccurate(lambda k: dict(load=10 + k, other=1), 0.5, 'load', mostSeconds=1e-9)
+zero = mpm.untilAccurate(lambda k: [3., 1., 0.][k], 0.5, mostSeconds=1e-9)
+assert not zero['isReached'] and zero['needed'] == inf
 
 def run(halvings):
 	column(4 * 2**halvings)
@@ -216,8 +213,8 @@ def run(halvings):
 
 settlement = mpm.untilAccurate(run, 0.005)
 for name, arguments in dict(function=(1, 0.1), text=(run, '1'), zero=(run, 0), time=(run, 0.1, None, -1), names=(lambda k: dict(a=1, b=2), 0.1), quantity=(lambda k: 1, 0.1, 'load'),
-		fails=(lambda k: 1 / 0, 1), same=(lambda k: run(0), 0.1)).items():
-	refused(name, *arguments)
+		fails=(lambda k: 1 / 0, 1), same=(lambda k: run(0), 0.1), others=(lambda k: {'abc'[k]: 1.}, 0.1)).items():
+	refused(name, mpm.untilAccurate, *arguments)
 print(json.dumps([first, late, never | dict(needed=str(never['needed'])), settlement, said]))
 ''').result
 	first, late, never, settlement, said = result
@@ -233,7 +230,8 @@ print(json.dumps([first, late, never | dict(needed=str(never['needed'])), settle
 	        'names': "ValueError untilAccurate: quantity = None is not admitted: expected one of ['a', 'b']",
 	        'quantity': "ValueError untilAccurate: quantity = 'load' is not admitted: expected one of ['value']",
 	        'fails': 'RuntimeError untilAccurate: the run with 0 halvings fails: ZeroDivisionError',
-	        'same': 'ValueError untilAccurate: run(1) has '
+	        'same': 'ValueError untilAccurate: run(1) has ',
+	        'others': "ValueError untilAccurate: run(1) returns ['b'], and run(0) ['a']: expected the same names"
 	}
 	assert set(said) == set(expected)
 	for name, sentence in expected.items():

@@ -11,18 +11,9 @@ def untilAccurate(run, accuracy, quantity=None, mostSeconds=math.inf):
 	"""Run a scene with cells that are halved once more each time, until the estimated error of a result is as small as asked for; print each run.
 
 	At least three runs. The error of the last is estimated from how the changes from run to run shrink, as in :func:`discretisationError`; where they do not yet, one more is made. The number of halvings
-	may be that of all cells, or better of those that matter. What the cells have no part in, as load steps, is not seen: let ``O.dt`` go with them. Scenes are lost (``O.reset()``); the last one is left. ::
+	may be that of all cells, or better of those that matter, as in ``MpmAdaptation(halvings=halvings, where='error')``. What the cells have no part in, as load steps, is not seen: let ``O.dt`` go with them. Scenes are lost (``O.reset()``); the last one is left. With *run* as of :func:`discretisationError`::
 
-		def run(halvings):
-			O.materials.append(MpmElasticMat(young=1e7, poisson=0.3, density=2000, label='soil'))
-			grid = MpmGrid(cellSize=1, adaptation=[MpmAdaptation(halvings=halvings, where='error')] if halvings else [])
-			O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (8, 0), (8, 4), (0, 4)]), grid, 2, 'soil'))
-			held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-			O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held)]
-			O.dt = 1 / 10
-			O.run(10, wait=True)
-
-		found = mpm.untilAccurate(run, accuracy=0.03)
+		found = mpm.untilAccurate(lambda halvings: run(1 / 2**halvings), accuracy=0.03)
 		print(found['displacement'], found['error'])
 
 	:param run: function of the number of halvings 0, 1, 2, ... that makes the scene and runs it, and returns a number, a dict of numbers by name, or None for the largest displacement of a point [m]
@@ -36,10 +27,12 @@ def untilAccurate(run, accuracy, quantity=None, mostSeconds=math.inf):
 	:raises RuntimeError: *run* fails: the message says with how many halvings, and why.
 	"""
 	_requireArguments(run, accuracy, mostSeconds)
-	values, seconds, unknowns = [], [], []
+	values, seconds, unknowns, names = [], [], [], set()
 	while True:
 		halvings = len(values)
 		result, time = resultOf('untilAccurate', run, halvings, f'{halvings} halvings')
+		names = names or set(result)
+		if set(result) != names: raise ValueError(f'untilAccurate: run({halvings}) returns {sorted(result)}, and run(0) {sorted(names)}: expected the same names')
 		name = _nameOf(result, quantity)
 		values.append(result[name])
 		seconds.append(time)
@@ -76,7 +69,7 @@ def _next(seconds):
 
 
 def _secondsToGo(seconds, error, admitted, shrinks):
-	if shrinks >= 1: return math.inf
+	if shrinks >= 1 or admitted == 0: return math.inf
 	runs, growth = math.ceil(math.log(admitted / error) / math.log(max(shrinks, 0.1))), _next(seconds) / seconds[-1]
 	return sum(seconds[-1] * growth**(k + 1) for k in range(max(1, runs)))
 
