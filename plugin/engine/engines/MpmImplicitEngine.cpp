@@ -12,6 +12,7 @@
 #include "engine/engines/Threads.hpp"
 #include "engine/engines/adaptation.hpp"
 #include "engine/engines/build_model.hpp"
+#include "engine/engines/cell_sizes.hpp"
 #include "engine/engines/merging.hpp"
 #include "engine/engines/moving.hpp"
 #include "engine/engines/step_errors.hpp"
@@ -160,6 +161,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
 	double       adapting = 0;
+	askSizes(*this, *scene, mask);
 	adaptCells(adapting);
 	if (hasQuestions()) askFunctions<Dim>(agreement);
 	Job<Dim> job      = prepare<Dim>(agreement);

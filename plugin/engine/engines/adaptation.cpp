@@ -89,6 +89,14 @@ namespace {
 			for (const Vector3r& centre : bySize[h])
 				addBox(boxes, centre, grid.cellSize / (1 << h), h + 1);
 	}
+
+	// The cells that a function wants to be halved, and no others.
+	void addWanted(Boxes& boxes, const vector<vector<Vector3r>>& bySize, const MpmGrid& grid, int halvings)
+	{
+		for (size_t h = 0; h < std::min(bySize.size(), size_t(halvings)); ++h)
+			for (const Vector3r& centre : bySize[h])
+				addBox(boxes, centre, grid.cellSize / (4 << h), int(h) + 1);
+	}
 }
 
 string adapt(const Analysis& analysis, const Scene& scene, const vector<MaterialPoint>& points)
@@ -100,14 +108,16 @@ string adapt(const Analysis& analysis, const Scene& scene, const vector<Material
 		const MpmAdaptation& adaptation = *grid.adaptation[a];
 		int                  halvings   = adaptation.halvings;
 		Real                 unknowns   = 0;
-		const bool           byEdges    = adaptation.where == "contact";
-		const auto           varying    = byEdges ? Varying() : varyingCells(grid, points, halvings);
-		if (!byEdges && grid.adaptation.size() == 1 && varying.isServed) return "";
+		const bool           byError    = adaptation.where == "error";
+		const auto           varying    = byError ? varyingCells(grid, points, halvings) : Varying();
+		if (byError && grid.adaptation.size() == 1 && varying.isServed) return "";
 		for (; halvings > 0; --halvings) {
 			Boxes tried = boxes;
-			if (byEdges) addEdges(tried, analysis, scene, halvings);
+			if (byError) addVarying(tried, varying.bySize, grid, halvings);
+			else if (adaptation.where.size)
+				addWanted(tried, adaptation.wanted, grid, halvings);
 			else
-				addVarying(tried, varying.bySize, grid, halvings);
+				addEdges(tried, analysis, scene, halvings);
 			grid.adapted = std::move(tried);
 			if (!std::isfinite(adaptation.maxUnknowns)) break;
 			unknowns = unknownsOf(grid, points);

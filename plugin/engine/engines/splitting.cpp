@@ -20,7 +20,7 @@ namespace {
 	// give a resistance that is nearer to the exact one.
 	bool arePointsOfCells(const MpmGrid& grid)
 	{
-		return std::any_of(grid.adaptation.begin(), grid.adaptation.end(), [](const auto& rule) { return rule->where == "error"; });
+		return std::any_of(grid.adaptation.begin(), grid.adaptation.end(), [](const auto& rule) { return !(rule->where == "contact"); });
 	}
 
 	template <int Dim> class Outgrown {

@@ -98,6 +98,85 @@ except Exception as error: print(json.dumps(str(error)))
 ''').result
 
 
+def test_a_function_says_how_large_cells_are(yade):
+	"""Small cells at the edge as a function wants them, asked anew in each step, are as good as those that follow the edge by themselves."""
+	results = yade(scene + '''
+footing(4, 0)
+O.run(4, wait=True)
+coarse, dofs = N(), solver.dofs
+asked = []
+def size(x):
+	asked.append(O.iter)
+	return 0.125 * max(.25, np.hypot(x[0] - .5, x[1]) / .25)
+grid, box = footing(4, 2, where=size)
+O.run(4, wait=True)
+middles = np.array([(np.array(b.min) + b.max) / 2 for b in grid.adapted if b.halvings == 2])
+far = np.hypot(middles[:, 0] - .5, middles[:, 1]).max()
+found = [N(), solver.dofs, far, sorted(set(asked)), sorted(solver.report()['cells'])]
+grid.adaptation[0].where = lambda x: inf
+O.step()
+print(json.dumps([coarse, dofs, found, sorted(solver.report()['cells'])]))
+''').result
+	coarse, few, (load, dofs, far, asked, cells), at_last = results
+	exact = 2 + np.pi
+	assert abs(load / exact - 1) < 0.06 < 0.09 < coarse / exact - 1
+	assert dofs < 1.2 * few and 0.06 < far < 0.2 and cells == [0.03125, 0.0625, 0.125]
+	assert asked == [0, 1, 2, 3] and at_last == [0.125]
+
+
+def test_cells_of_a_function_are_those_of_a_box(yade):
+	"""The same cells by MpmRefinement, with the points split alike, give the same bits."""
+	results = yade(slope + '''
+def settled(**cells):
+	grid = slope(profile=[(0, 0), (16, 0), (16, 6), (0, 6)])
+	for name, value in cells.items(): setattr(grid, name, value)
+	O.run(3, wait=True)
+	return mpm.arrays()['pos'].tolist(), sorted(solver.report()['cells'].items())
+small = MpmAdaptation(halvings=2, where=lambda x: .25 if max(abs(x[0] - 7), abs(x[1] - 3)) < 1 else 1)
+large = MpmAdaptation(where=lambda x: inf)
+box = MpmRefinement(min=(6, 2, -inf), max=(8, 4, inf), halvings=2)
+print(json.dumps([settled(adaptation=[small]), settled(adaptation=[large], refinements=[box])]))
+''').result
+	assert results[0] == results[1] and len(results[0][1]) == 3
+
+
+@pytest.mark.parametrize('function, said', [
+        ('lambda x: -1.', "MpmGrid.adaptation[0].where returned -1.0 at "),
+        ('lambda x: None', 'expected the size of cells [m] > 0'),
+        ('lambda x: 1 / 0', "raised ZeroDivisionError('division by zero')"),
+])
+def test_a_function_that_says_no_size_is_refused(yade, function, said):
+	"""Before the step has changed anything."""
+	state, message = yade(scene + f'''
+grid, box = footing(4, 1, where={function})
+try: O.step()
+except Exception as error: print(json.dumps([[solver.nDone, len(grid.adapted), len(O.bodies)], str(error)]))
+''').result
+	assert said in message and 'Vector3(0.03125,-2.46875,0)' in message and state == [0, 0, 1921]
+
+
+def test_files_do_not_keep_functions(yade):
+	"""A scene that is loaded says so, and goes on with the same bits when the function is given again."""
+	results = yade(scene + '''
+def size(x): return .0625 if x[1] > -.25 else .125
+grid, box = footing(4, 1, where=size)
+O.run(2, wait=True)
+O.save('adapted.yade')
+O.run(2, wait=True)
+whole = solver.contacts[0].forces[0][1]
+O.reset()
+O.load('adapted.yade')
+solver = O.engines[0]
+try: O.step()
+except Exception as error: said = str(error)
+solver.grid.adaptation[0].where = size
+O.run(2, wait=True)
+print(json.dumps([said, whole, solver.contacts[0].forces[0][1]]))
+''').result
+	assert "MpmAdaptation.where = 'function' is not admitted" in results[0] and 'files do not keep' in results[0]
+	assert results[1] == results[2]
+
+
 slope = '''
 import json
 import numpy as np

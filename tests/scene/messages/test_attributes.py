@@ -137,7 +137,7 @@ outOfRange = {
         'MpmRefinement.halvings': ['0', '6'],
         'MpmGrid.adaptation': None,
         'MpmAdaptation.halvings': ['0', '6'],
-        'MpmAdaptation.where': ['"edges"'],
+        'MpmAdaptation.where': ['"edges"', '"function"'],
         'MpmAdaptation.maxUnknowns': ['0.', '-1.', 'nan'],
         'MpmAdaptation.merge': None,
         'MpmGhost.factor': ['-1e-2'],

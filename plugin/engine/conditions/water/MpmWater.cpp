@@ -4,22 +4,9 @@
 #include "engine/conditions/water/doubtful_water.hpp"
 #include "engine/conditions/water/pressure_table.hpp"
 #include "engine/conditions/water/waters.hpp"
-#include "yade_api/python_lock.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
-
-std::optional<PythonFunction> Conversion<PythonFunction>::fromPython(const py::object& value)
-{
-	if (value.is_none()) return PythonFunction();
-	if (!PyCallable_Check(value.ptr())) return std::nullopt;
-	const auto release = [](py::object* function) {
-		if (!Py_IsInitialized()) return; // the interpreter has taken it along
-		const PythonLock python;
-		delete function;
-	};
-	return PythonFunction { shared_ptr<py::object>(new py::object(value), release) };
-}
 
 void MpmWater::requireAdmissible() const
 {

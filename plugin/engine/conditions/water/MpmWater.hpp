@@ -2,22 +2,9 @@
 #pragma once
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
+#include "yade_api/python_function.hpp"
 
 namespace yade {
-
-// A function of Python, which may be let go of in any thread, or none. It is not saved.
-struct PythonFunction {
-	shared_ptr<py::object> object;
-
-	explicit                      operator bool() const { return bool(object); }
-	template <class Archive> void serialize(Archive&, unsigned) { }
-};
-template <> struct Conversion<PythonFunction> {
-	static string                        expected() { return "a function of the position that returns the pressure [Pa], or None"; }
-	static std::optional<PythonFunction> fromPython(const py::object&);
-	static py::object                    toPython(const PythonFunction& f) { return f ? *f.object : py::object(); }
-};
-inline string textOf(const PythonFunction& f) { return f ? "a function" : "None"; }
 
 class MpmWater : public Exposed<MpmWater, MpmCondition> {
 public:

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/water/pressure_table.hpp"
 #include "core/base/sentence.hpp"
-#include "yade_api/python_lock.hpp"
-#include "yade_api/scene.hpp"
 #include <algorithm>
 #include <map>
 
@@ -11,55 +9,10 @@ namespace yade {
 namespace {
 	using gimpm::Key;
 
-	// Values of a function at these positions, or why there are none.
-	struct Question {
-		PythonFunction   function;
-		vector<Vector3r> places;
-		vector<Real>     values;
-		string           error;
-
-		void ask()
-		{
-			for (const Vector3r& x : places) {
-				string answer;
-				try {
-					const py::object value  = (*function.object)(x);
-					const auto       number = Conversion<Real>::fromPython(value);
-					if (number && std::isfinite(*number)) {
-						values.push_back(*number);
-						continue;
-					}
-					answer = "returned " + repr(value);
-				} catch (const py::error_already_set&) {
-					answer = "raised " + raised();
-				}
-				error = "MpmWater.pressure " + answer + " at " + textOf(x) + ": expected a finite pressure [Pa].";
-				return;
-			}
-		}
-
-	private:
-		static string raised()
-		{
-			PyObject *type, *value, *traceback;
-			PyErr_Fetch(&type, &value, &traceback);
-			PyErr_NormalizeException(&type, &value, &traceback);
-			const py::handle<> keep[] = { py::handle<>(type), py::handle<>(py::allow_null(value)), py::handle<>(py::allow_null(traceback)) };
-			return repr(py::object(py::handle<>(py::borrowed(value ? value : type))));
-		}
-	};
-
-	// In whatever thread this is.
 	vector<Real> answers(const PythonFunction& function, vector<Vector3r> places, const string& name)
 	{
-		const auto question = std::make_shared<Question>(Question { function, std::move(places), {}, {} });
-		if (PyGILState_Check()) question->ask();
-		else
-			withPython(Singleton<Omega>::instance().simulationLoop->looping, [question] { question->ask(); });
-		if (!question->error.empty()) throw std::invalid_argument(name + ": " + question->error);
-		if (question->values.size() < question->places.size())
-			throw std::invalid_argument(name + ": the run was ended before MpmWater.pressure was known.");
-		return question->values;
+		return evaluate(
+		        function, std::move(places), name + ": MpmWater.pressure", { "a finite pressure [Pa]", [](Real p) { return std::isfinite(p); } });
 	}
 
 	// Nodes of the cells, and those up to `margin` cells around.

@@ -183,9 +183,9 @@ def _ofLeaves(points, grid, n):
 
 
 def _alongSurface(predicate, points, size, grid, n):
-	"""Points of cells of one size that are inside the predicate, as pairs of the size of a cell and the points. Where cells are going to be halved by the error, those that the surface cuts have the points of smaller cells, so that it stays where it is."""
+	"""Points of cells of one size that are inside the predicate, as pairs of the size of a cell and the points. Where cells are going to be halved by the error or a function, those that the surface cuts have the points of smaller cells, so that it stays where it is."""
 	count = n**grid.dim
-	for _ in range(max((rule.halvings for rule in grid.adaptation if rule.where == 'error'), default=0)):
+	for _ in range(max((rule.halvings for rule in grid.adaptation if rule.where != 'contact'), default=0)):
 		cells = points.reshape(-1, count, 3)
 		halves = _halved(cells.mean(axis=1), size, grid, n).reshape(len(cells), count * 2**grid.dim, 3)
 		within = inside(predicate, halves.reshape(-1, 3)).reshape(halves.shape[:2])
