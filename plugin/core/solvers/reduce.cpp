@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/reduce.hpp"
 #include "core/grid/masters.hpp"
-#include <numeric>
+#include <algorithm>
 #include <utility>
 
 namespace gimpm {
@@ -99,55 +99,39 @@ template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 	});
 }
 
-/// Rows become columns. Rows of a column rise, and entries in the same position keep their order.
-Csc transposed(const Csc& K)
+/// Adds up entries in the same position, and lets the rows of each column rise.
+void addUpEqual(const Csc& K, Csc& sums)
 {
-	Csc       out;
-	const int entries = int(K.row.size());
-	out.start.assign(K.size() + 1, 0);
-	for (const int row : K.row)
-		++out.start[row + 1];
-	std::partial_sum(out.start.begin(), out.start.end(), out.start.begin());
-	out.row.resize(entries);
-	out.value.resize(entries);
-	std::vector<int> next(out.start.begin(), out.start.end() - 1);
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
-			const int at  = next[K.row[e]]++;
-			out.row[at]   = c;
-			out.value[at] = K.value[e];
-		}
-	return out;
-}
-
-/// Adds up entries in the same position, which are neighbours in their column.
-void addUpEqual(Csc& K)
-{
-	int end = 0;
+	std::vector<double> sum(K.size());
+	std::vector<int>    lastColumn(K.size(), -1);
+	sums.start.assign(1, 0);
+	sums.row.clear();
 	for (int c = 0; c < K.size(); ++c) {
-		const int first = std::exchange(K.start[c], end);
-		for (int e = first; e < K.start[c + 1]; ++e)
-			if (end > K.start[c] && K.row[end - 1] == K.row[e]) K.value[end - 1] += K.value[e];
-			else
-				K.row[end] = K.row[e], K.value[end++] = K.value[e];
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
+			const int  row   = K.row[e];
+			const bool isNew = std::exchange(lastColumn[row], c) != c;
+			if (isNew) sums.row.push_back(row);
+			sum[row] = isNew ? K.value[e] : sum[row] + K.value[e];
+		}
+		std::sort(sums.row.begin() + sums.start.back(), sums.row.end());
+		sums.value.resize(sums.row.size());
+		for (int e = sums.start.back(); e < int(sums.row.size()); ++e)
+			sums.value[e] = sum[sums.row[e]];
+		sums.start.push_back(int(sums.row.size()));
 	}
-	K.start.back() = end;
-	K.row.resize(end);
-	K.value.resize(end);
 }
 
 /// In any order, and several entries in one position: nodes beyond the sides of a periodic grid have lower numbers,
 /// masters and nodes that are coupled may have any.
 template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, bool isTriangle, Csc& out)
 {
-	Csc rows;
-	fill(rows, dofs.count, [&](auto&& f) {
+	Csc columns;
+	fill(columns, dofs.count, [&](auto&& f) {
 		forEntries(K, dofs, couplings, [&](int row, int column, double value) {
-			if (row >= column || !isTriangle) f(column, row, value);
+			if (row >= column || !isTriangle) f(row, column, value);
 		});
 	});
-	out = transposed(rows);
-	addUpEqual(out);
+	addUpEqual(columns, out);
 }
 
 /// Appends a column for a displacement of a node, from its rows and those of its neighbours, which rise.

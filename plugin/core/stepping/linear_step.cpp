@@ -19,8 +19,11 @@ template <int Dim> bool LinearStep<Dim>::solve(const Residual<Dim>& at, const Ei
 	const Couplings* couplings = system_.isCoupled() ? &at.couplingBlocks : nullptr;
 	Eigen::VectorXd  right     = at.values;
 	if (caused.size() > 0) forFree([&](int i, int number, double scale) { right[number] -= scale * caused[i]; });
-	const LinearProblem problem
-	        = system_.dofs.affineConstraints ? reduced(at.K, system_.dofs, couplings) : LinearProblem(at.K, system_.dofs, system_.ownedNodes(), couplings);
+	const LinearProblem problem = [&] {
+		const Stopwatch watch(report_.times.assembly);
+		return system_.dofs.affineConstraints ? reduced(at.K, system_.dofs, couplings)
+		                                      : LinearProblem(at.K, system_.dofs, system_.ownedNodes(), couplings);
+	}();
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();
