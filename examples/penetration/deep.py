@@ -167,7 +167,8 @@ def draw():
 	curve.set(xlabel='resistance over $c_u$' + (' D' if isBar else r' $\pi R^2$'), ylabel='way / R', ylim=(1.02 * s.max(), 0))
 	curve.legend(frameon=False, loc='lower left', bbox_to_anchor=(0, 1))
 	figure.savefig(os.path.join(options.out, options.scene + '.png'), dpi=110)
-	print(f'written: {options.out}/{options.scene}.png, and for ParaView {options.out}/{options.scene}-points.pvd')
+	film.finish()
+	print(f'written: {options.out}/{options.scene}.png, a film with the cells {options.out}/{options.scene}.gif, and for ParaView {options.out}/{options.scene}-points.pvd')
 
 
 O.materials.append(FrictMat(label='rigid'))
@@ -175,7 +176,9 @@ bodies, line, low, outline = dict(cone=cone, pile=pile, tbar=tbar)[options.scene
 grid, sides, load = clay(line, low)
 contact = MpmContact(stiffness=options.stiffness, friction=np.arctan(5) if rough else 0, adhesion=rough * cu if rough else inf)
 O.engines = [MpmImplicitEngine(grid=grid, fBar=True, pressureRelaxation=isBar, boundaries=sides, loads=[load], loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
-if options.picture: O.engines += [MpmVtkRecorder(fileName=os.path.join(options.out, options.scene + '-'), recorders=['points', 'loads'], iterPeriod=20)]
+if options.picture:
+	O.engines += [MpmVtkRecorder(fileName=os.path.join(options.out, options.scene + '-'), recorders=['points', 'loads'], iterPeriod=20)]
+	film = mpm.movie(os.path.join(options.out, options.scene + '.gif'), 'plasticStrain', every=20, limits=((0, 5 * R), (low - R, 0)), size=(8, 7), grid=True, loads=False, range=(0, 2))
 O.dt = 1
 area = R if isBar else np.pi * R**2
 start, found = bodies[0].state.pos[1], []
