@@ -50,7 +50,7 @@ def scene(kind, velocity):
 	mpm.assign(stress=np.repeat(-p0 * np.eye(3)[None], len(points), axis=0))
 	sides = [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -depth, inf), fix='xy')]
 	flow = MpmFlow(drains=[MpmDrain(surface=[(width, -depth), (width, 0)])]) if kind == 'flow' else None
-	solver = MpmImplicitEngine(grid=grid, fBar=kind != 'flow', boundaries=sides, loads=[MpmTraction(surface=[(width, 0), (R, 0)], pressure=p0)], loadCurve=[(0, 1)], flow=flow, contacts=[MpmContact(friction=0, stiffness=10)], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	solver = MpmImplicitEngine(grid=grid, fBar=kind == 'undrained', boundaries=sides, loads=[MpmTraction(surface=[(width, 0), (R, 0)], pressure=p0)], loadCurve=[(0, 1)], flow=flow, contacts=[MpmContact(friction=0, stiffness=10)], newton=MpmNewton(minStep=1 / 64), verbosity=0)
 	O.engines, O.dt = [solver], h / options.stepsPerCell / velocity
 	return solver, cone
 
@@ -78,7 +78,7 @@ def push(kind, velocity):
 		points = mpm.arrays()
 		found.append([moved / R, (-force[onTip, 1].sum() / (np.pi * R**2) - p0) / cu, behindShoulder(points, shoulder - moved) / cu if kind == 'flow' else np.nan])
 	print(f'{len(points["id"])} material points, {iterations} iterations in {len(found)} steps, {time.time() - began:.0f} s')
-	return np.array(found), dict(position=np.column_stack([points['pos'][:, 0], points['pos'][:, 1] - shoulder + moved]) / R, pressure=points['excessPressure'] / cu)
+	return np.array(found), dict(position=np.column_stack([points['pos'][:, 0], points['pos'][:, 1] - shoulder + moved]) / R, pressure=points.get('excessPressure', np.zeros(len(points['id']))) / cu)
 
 
 def result(name, kind, velocity):
@@ -96,12 +96,12 @@ def result(name, kind, velocity):
 
 def compare():
 	"""Both ends beside the separate runs, and the velocity of half of the change."""
-	where = f'{options.cells} cells over the radius'
-	fast, slow = (flows[V] for V in (min(velocities, key=lambda V: abs(np.log(V / 100))), velocities[-1]))
-	for what, ours, theirs, source in (('resistance at V = 100', fast[0], ends['undrained'][0], 'the same without flow, undrained'), ('resistance at V = 0.01', slow[0], ends['drained'][0], 'the same without water'),
-	                                   ('excess pressure at V = 100', fast[1], flows[velocities[0]][1], 'the same at V = 1000')):
+	near100 = min(velocities, key=lambda V: abs(np.log(V / 100)))
+	rows = [(f'resistance at V = {near100:g}', flows[near100][0], ends['undrained'][0], 'the same undrained, without flow'), (f'resistance at V = {velocities[-1]:g}', flows[velocities[-1]][0], ends['drained'][0], 'the same drained, without water')]
+	if velocities[0] > near100: rows.append((f'excess pressure at V = {near100:g}', flows[near100][1], flows[velocities[0]][1], f'the same at V = {velocities[0]:g}'))
+	for what, ours, theirs, source in rows:
 		print(f'{what}: {ours:.3f} c_u, {source} {theirs:.3f} ({100 * (ours / theirs - 1):+.1f} %)')
-		compared(f'CPTu, {where}: {what}, over c_u', ours, theirs, source)
+		compared(f'CPTu, {options.cells} cells over the radius: {what}', ours, theirs, source, 'c_u')
 	half = 10**np.interp((ends['undrained'][0] + ends['drained'][0]) / 2, [flows[V][0] for V in velocities], np.log10(velocities))
 	print(f'half of the change of the resistance at V = {half:.2f}')
 
@@ -113,7 +113,7 @@ def draw():
 	for (name, (q, _)), dashes in zip(ends.items(), ('--', ':')): curves.axhline(q, color='C0', linestyle=dashes, linewidth=1, label=f'q, {name}')
 	curves.set(xlabel='normalised velocity V = v D / $c_v$', ylabel='over $c_u$', ylim=(0, None))
 	curves.legend(frameon=False)
-	shown = velocities[0] if len(velocities) < 3 else 100., min(velocities, key=lambda V: abs(np.log(V)))
+	shown = [min(velocities, key=lambda V: abs(np.log(V / wanted))) for wanted in (100, 1)]
 	most = max(np.percentile(np.load(os.path.join(options.out, f'V-{V:g}.npz'))['pressure'], 99.8) for V in shown)
 	for V, side in zip(shown, (-1, 1)):
 		data = np.load(os.path.join(options.out, f'V-{V:g}.npz'))

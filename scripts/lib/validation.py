@@ -34,7 +34,7 @@ runs = {
         'lined_tunnel': ['lined_tunnel.py', 'shaft.py'],
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
-                *(f'deep.py --cells 4 --halvings 1 --stepsPerCell 16 --rigidity {which}' for which in ('50', '200', '500', '200 --rough 1')),
+                *(f'deep.py --cells 4 --halvings 1 --stepsPerCell 16 --rigidity {which}' for which in ('50', '200', '500', '200 --rough 1')), 'cptu.py',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
         'adaptive': ['adaptive.py', 'slip.py'],
@@ -206,7 +206,7 @@ those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test
 
 kinds = {'closed form': 'o', 'other program': 's', 'experiment': '^', 'balance, or itself': 'x'}
 _programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same cut in grains|CalculiX|GetFEM|FEniCS')
-_itself = re.compile('balance|its weight|weight of|what was set|what turns|the same (cells|dam)|nothing changes|by MpmContact|MpmWater of|potential_plane|volume loss|base of the ground bears')
+_itself = re.compile('balance|its weight|weight of|what was set|what turns|the same (cells|dam|undrained|drained|at V)|nothing changes|by MpmContact|MpmWater of|potential_plane|volume loss|base of the ground bears')
 
 
 def kindOf(source):

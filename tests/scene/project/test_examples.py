@@ -419,6 +419,17 @@ def test_deep_penetration(yade):
 		assert (run.folder / f'out/deep/{scene}-points.pvd').read_text().count('<DataSet') > 1
 
 
+def test_cone_with_pore_pressures(yade):
+	"""Coarse cells, over a short way: the slower the cone, the larger its resistance and the smaller the pressures. Without pressures it is the run without water, to 2 %; at the other end
+	pressures vary by cells of half of the radius, and it is 12 % stronger than without flow."""
+	run = yade(root / 'examples' / 'penetration' / 'cptu.py', '--cells', 2, '--travel', 2, '--halvings', 0, '--velocities', '100 3 0.01')
+	q = {name: float(value) for name, value in re.findall(r'^(\S+): q = (\S+) c_u', run.stdout, re.MULTILINE)}
+	u = [float(value) for value in re.findall(r', u = (\S+) c_u', run.stdout)]
+	assert q['V-0.01'] == pytest.approx(q['drained'], rel=0.02) and q['V-100'] == pytest.approx(q['undrained'], rel=0.15), run.stdout
+	assert q['V-100'] < q['V-3'] < q['V-0.01'] and u[0] > u[1] > u[2] > 0 and u[2] < 0.05 * u[0], run.stdout
+	assert (run.folder / 'out/cptu/cptu.png').stat().st_size > 20000
+
+
 def test_wheel(yade):
 	"""All energy of its drive is found again."""
 	run = yade(root / 'examples' / 'penetration' / 'wheel.py', '--cells', 4, '--way', 0.4)
