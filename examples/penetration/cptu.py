@@ -111,18 +111,19 @@ def draw():
 	curves.semilogx(velocities, [flows[V][0] for V in velocities], 'o-', label='net resistance q')
 	curves.semilogx(velocities, [flows[V][1] for V in velocities], 's-', label='excess pressure u behind the shoulder')
 	for (name, (q, _)), dashes in zip(ends.items(), ('--', ':')): curves.axhline(q, color='C0', linestyle=dashes, linewidth=1, label=f'q, {name}')
-	curves.set(xlabel='normalised velocity V = v D / $c_v$', ylabel='over $c_u$', ylim=(0, None))
-	curves.legend(frameon=False)
+	curves.set(xlabel='normalised velocity V = v D / $c_v$', ylabel='over $c_u$', ylim=(0, 1.35 * ends['drained'][0]))
+	curves.legend(frameon=False, loc='upper right')
 	shown = [min(velocities, key=lambda V: abs(np.log(V / wanted))) for wanted in (100, 1)]
 	most = max(np.percentile(np.load(os.path.join(options.out, f'V-{V:g}.npz'))['pressure'], 99.8) for V in shown)
 	for V, side in zip(shown, (-1, 1)):
 		data = np.load(os.path.join(options.out, f'V-{V:g}.npz'))
 		x, y = data['position'].T
-		drawn = field.scatter(side * x, y, c=data['pressure'], s=5, marker='s', linewidths=0, vmin=0, vmax=most)
+		near = (x < 10) & (np.abs(y) < 12)
+		drawn = field.tricontourf(side * x[near], y[near], data['pressure'][near], levels=np.arange(0, np.ceil(most) + 0.5, 0.5), extend='both')
 	field.fill([-1, 0, 1, 1, -1], [0, -tip / R, 0, 9, 9], color='0.85', zorder=3)
 	field.axvline(0, color='0.3', linewidth=0.8, zorder=4)
 	field.set(aspect='equal', xlim=(-6, 6), ylim=(-7, 6), xlabel='r / R', ylabel='height over the shoulder / R', title=f'V = {shown[0]:g}                V = {shown[1]:g}')
-	figure.colorbar(drawn, ax=field, label='excess pressure / $c_u$', shrink=0.8)
+	figure.colorbar(drawn, ax=field, label='excess pressure / $c_u$', shrink=0.8, ticks=np.arange(0, np.ceil(most) + 1))
 	figure.savefig(os.path.join(options.out, 'cptu.png'), dpi=110)
 	print(f'written: {options.out}/cptu.png')
 
