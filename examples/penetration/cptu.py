@@ -63,14 +63,17 @@ def behindShoulder(points, y):
 
 
 def push(kind, velocity):
-	"""Rows of way in radii, net resistance and excess pressure over c_u; and at the end the points."""
+	"""Rows of way in radii, net resistance and excess pressure over c_u; and at the end the points. A step that fails ends the run."""
 	began, iterations = time.time(), 0
 	solver, cone = scene(kind, velocity)
 	O.step()
 	found, begin = [], cone[0].state.pos[1]
 	for facet in cone: facet.state.vel = (0, -velocity, 0)
 	for _ in range(round(way / h * options.stepsPerCell)):
-		O.step()
+		try: O.step()
+		except RuntimeError as failure:
+			print(failure)
+			break  # the means are those of the way up to here
 		iterations += solver.iterations
 		places, force = mpm.contactForces()
 		moved = begin - cone[0].state.pos[1]

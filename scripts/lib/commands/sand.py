@@ -2,7 +2,7 @@
 """Measures limit loads of sand with psi = phi: strips by their weight and by a surcharge, and walls.
 
 	scripts/sand                      all groups; half an hour of one core
-	scripts/sand factors steps        some of factors, early, rigid, limit, causes, parts, steps, walls, cuts
+	scripts/sand factors steps        some of factors, early, rigid, limit, box, causes, parts, steps, walls, cuts
 	scripts/sand factors --only 'N_q, 20' --grid B/9
 
 A strip of width B sinks by a thousandth of B in 40 steps, in sand that weighs gamma, with c = gamma B / 1000, in the group limit a tenth of that. N_gamma is 2 q / (gamma B), less

@@ -2,7 +2,7 @@
 """Writes the pages of all validation, plugin/docs/studies/validation.md and how_right.md with their picture, from the kept tables of comparisons.
 
 	scripts/validate                        the pages, in a second
-	scripts/validate --run                  runs the examples first, a quarter of an hour on one core
+	scripts/validate --run                  runs the examples first, three quarters of an hour on one core
 	scripts/validate --run column tasks     some of them
 """
 import os

@@ -62,6 +62,15 @@ def limit():
 				yield 'strip.strip', (name, f'40 steps, c {cohesion:g}', f'B/{2 * cells + 1}'), arguments | setting | dict(cells=cells, cohesion=cohesion)
 
 
+def box():
+	"""The setting of the group limit, and the strip as a rigid Box with MpmContact, its edge on a line of the grid: cells of one size, halved at the edge, and halved below the strip."""
+	setting = dict(points=1, settlement=2.5e-6, stiff=1e6, factor=1e-3, cohesion=1e-4)
+	kinds = {'cells of one size': dict(halvings=0), 'halved at its edge': dict(halvings=1), 'halved to B beside and B / 2 below its middle': dict(halvings=0, finer=(1, .5))}
+	for name in 'N_gamma smooth, 30', 'N_gamma rough, 30':
+		for cells in 8, 16:
+			for kind, arguments in kinds.items(): yield 'strip.strip', (name, f'Box, {kind}', f'B/{2 * cells}'), problems[name] | setting | arguments | dict(cells=cells)
+
+
 def causes():
 	"""Causes for the load of the smooth strip, 20 degrees, B/17, one point a cell, to depend on the number of steps: one thing changed at a time."""
 	stiff, stiffer = dict(stiff=1e5, settlement=2.5e-5), dict(stiff=1e6, settlement=2.5e-6)
@@ -142,4 +151,4 @@ def cuts():
 					yield 'cuts.condition', (f"{'flowing' if flows else 'elastic'}, {dim}D", name, f'{cut:g}'), dict(cut=cut, flows=flows, dim=dim) | ghost
 
 
-groups = dict(factors=factors, early=early, rigid=rigid, limit=limit, causes=causes, parts=parts, steps=steps, walls=walls, cuts=cuts)
+groups = dict(factors=factors, early=early, rigid=rigid, limit=limit, box=box, causes=causes, parts=parts, steps=steps, walls=walls, cuts=cuts)

@@ -5,7 +5,7 @@ from math import inf, radians, sin
 import numpy as np
 from contacts.course import Course
 from yade import mpm, pack, utils
-from yade.wrapper import FrictMat, MpmAdaptation, MpmBoundary, MpmContact, MpmGhost, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmTraction, Omega
+from yade.wrapper import FrictMat, MpmAdaptation, MpmBoundary, MpmContact, MpmGhost, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmRefinement, MpmTraction, Omega
 
 from .exact import cohesionFactor, surchargeFactor, weightFactor
 
@@ -20,7 +20,7 @@ def sizes(phi, isRough):
 	return {(20, False): (1.5, .6), (20, True): (2., .8), (30, False): (2.5, 1.), (30, True): (3.5, 1.3)}[phi, isRough]
 
 
-def strip(phi, isRough=False, load='weight', cells=8, points=2, steps=40, settlement=1e-3, stiff=1e4, cohesion=1e-3, fBar=True, relaxation=False, tolerance=None, halvings=None, seconds=200, **ghost):
+def strip(phi, isRough=False, load='weight', cells=8, points=2, steps=40, settlement=1e-3, stiff=1e4, cohesion=1e-3, fBar=True, relaxation=False, tolerance=None, halvings=None, finer=None, seconds=200, **ghost):
 	"""The factor N_gamma, N_q or N_c after a quarter and all of the way; N_gamma less what the cohesion and the settlement add.
 
 	:param load: what bears the strip: 'weight', 'surcharge' or 'cohesion', the last two of sand without weight
@@ -31,6 +31,7 @@ def strip(phi, isRough=False, load='weight', cells=8, points=2, steps=40, settle
 	:param relaxation: MpmImplicitEngine.pressureRelaxation
 	:param tolerance: of Newton's method, if not its own
 	:param halvings: None: the strip is nodes with a prescribed displacement; a number: it is a rigid Box with MpmContact, with cells halved so often at its edge (MpmAdaptation)
+	:param finer: width and depth of a region below the strip whose cells are halved once (MpmRefinement)
 	:param ghost: MpmGhost's, instead of those for sand that yields
 	"""
 	isBox = halvings is not None
@@ -42,7 +43,8 @@ def strip(phi, isRough=False, load='weight', cells=8, points=2, steps=40, settle
 	O.materials.append(
 	        MpmMohrCoulombMat(
 	                young=stiff * bears, poisson=.3, density=density, cohesion=dict(weight=cohesion, surcharge=0, cohesion=1)[load] * weight, frictionAngle=radians(phi), dilationAngle=radians(phi), label='sand'))
-	grid = MpmGrid(cellSize=h, adaptation=[MpmAdaptation(halvings=halvings)] if halvings else [])
+	grid = MpmGrid(cellSize=h, refinements=[MpmRefinement(min=(-inf, -finer[1], -inf), max=(finer[0], inf, inf))] if finer else [],
+	               adaptation=[MpmAdaptation(halvings=halvings)] if halvings else [])
 	width, depth = (round(size / h) * h for size in sizes(phi, isRough or not isHeavy))
 	ground = pack.inAlignedBox((0, -depth, -1), (width, 0, 1))
 	O.bodies.append(mpm.fill(ground, grid, points, 'sand'))

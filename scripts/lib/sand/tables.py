@@ -7,6 +7,7 @@ titles = dict(
         early='Strips of one point a cell at a settlement of 0.00025 B',
         rigid='Strips in stiffer soil, at a settlement as much smaller',
         limit='One setting for N_gamma and steps, all strips',
+        box='One setting for N_gamma, strips as boxes with contact',
         causes='Dependence on steps by cause, smooth, 20 degrees, one point a cell, all runs',
         parts='Load of a strip by part of the method, smooth, 20 degrees',
         steps='Load by number of steps, smooth, 20 degrees, 2 x 2 points',
