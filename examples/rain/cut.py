@@ -21,19 +21,15 @@ ground, base = [(24, 12), (14, 12), (9, 4), (0, 4)], [(0, 0), (24, 0)]
 drains = [MpmDrain(surface=ground, rain=options.rain, curve=[(5 * hour, 0), (5 * hour + 1, 1)]), MpmDrain(surface=base, pressure=9810 * 2)]
 sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(24, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
 O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, flow=MpmFlow(total=True, drains=drains), loadCurve=[(0, 1), (1, 1)], verbosity=0)]
-O.dt, found = hour / 2, []
-while O.time < (5 + options.hours) * hour:
-	O.step()
-	if O.iter < 10 or (O.iter - 10) % (2 * options.every): continue
-	moved = np.linalg.norm(mpm.arrays()['pos'] - mpm.arrays()['pos0'], axis=1).max()
-	if not found or found[-1][1] >= 1:
-		safety = mpm.strengthReduction(tolerance=0.02)
-		found.append((O.time / hour - 5, (safety['lower'] + safety['upper']) / 2))
-	print(f'after {O.time / hour - 5:.0f} h of rain F is {found[-1][1]:.2f}{" or less" * (found[-1][1] < 1)}, and the ground has moved by {moved:.2f} m')
-times, factors = np.transpose(found)
-if factors[-1] < 1: print(f'F is one after {np.interp(-1, -factors, times):.0f} h of rain')
+O.dt = hour / 2
+O.step()  # saturations are known from here on
+film = mpm.movie(os.path.join(options.out, 'cut.gif'), 'saturation', every=4, range=(0.5, 1), limits=((0, 25), (0, 13)))
+found = mpm.safetyInTime([(5 + hours) * hour for hours in np.arange(0, options.hours + 0.1, options.every)], tolerance=0.02)
+film.finish()
+moved = np.linalg.norm(mpm.arrays()['pos'] - mpm.arrays()['pos0'], axis=1).max()
+print(f'after {O.time / hour - 5:.0f} h of rain the ground has moved by {moved:.2f} m; F was one after {found["failureTime"] / hour - 5:.0f} h')
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4), layout='constrained', width_ratios=(2, 1))
-mpm.plot('saturation', ax=left)
-right.plot(times, factors, 'o-')
+mpm.plot('saturation', ax=left, range=(0.5, 1))
+right.plot(found['time'] / hour - 5, found['factor'], 'o-')
 right.set(xlabel='hours of rain', ylabel='factor of safety')
 figure.savefig(os.path.join(options.out, 'cut.png'), dpi=110)

@@ -6,7 +6,7 @@
 	rain   a column above a water table, on which it begins to rain harder (Srivastava and Yeh 1991): heads by a closed form
 	layers two layers under the same rain, the upper one ten times as permeable: heads by a closed form
 	slope  an infinite slope with steady infiltration (Lu and Godt 2008): the factor of safety from the stresses of elastic soil
-	failure  an infinite slope on rock that fails after days of rain: when, beside limit equilibrium with Richards' equation along the normal
+	failure  an infinite slope on rock that fails after days of rain: factor of safety against time, and when, beside limit equilibrium with Richards' equation along the normal
 	rest   hydrostatic suction, at several cuts of the cells: how far heads go from it
 	dry    a front that goes into dry sand on cells of 0.1 m: how far saturation goes beyond its bounds
 
@@ -178,29 +178,42 @@ def failure(axes):
 	section = Section((1, 200), (1, H), Soil(K, porosity, saturation, permeability), fall=np.cos(beta))
 	section.rain[:] = q * np.cos(beta)
 
+	steep = np.arcsin(np.tan(phi))  # without dilation soil bears tan(phi) = sin(steep) in simple shear (Davis 1968); with it water that is drawn in would delay the failure
+
 	def factor(h):
+		"""Of c' = cohesion / cos(steep) and tan(steep), which strength reduction divides."""
 		S = saturation(h)[0]
 		weights = (19e3 - porosity * (1 - S) * weight) * section.dz
 		above = np.cumsum(weights[::-1])[::-1] - weights / 2
-		return ((cohesion + (np.cos(beta) * above - weight * np.where(h < 0, S, 1) * h) * np.tan(phi)) / (np.sin(beta) * above)).min()
+		normal, shear, low, high = np.cos(beta) * above - weight * np.where(h < 0, S, 1) * h, np.sin(beta) * above, 0.1, 10.
+		while high - low > 1e-6:
+			F = (low + high) / 2
+			angle = np.arctan(np.tan(steep) / F)
+			stands = (cohesion / np.cos(steep) / F * np.cos(angle) + normal * np.sin(angle) >= shear).all()
+			low, high = (F, high) if stands else (low, F)
+		return low
 
 	hours = np.arange(0, 301, 2.)
 	start = head - section.z[None] * np.cos(beta)
 	factors = [factor(h[0]) for h in section.run(start, hours * 3600, 3600)]
 	expected = np.interp(-1, -np.array(factors), hours)
-	steep = np.arcsin(np.tan(phi))  # without dilation soil bears tan(phi) = sin(steep) in simple shear (Davis 1968); with it water that is drawn in would delay the failure
 	soil = dict(conductivity=K, porosity=porosity, retention=MpmVanGenuchten(alpha=1, n=2), cohesion=cohesion / np.cos(steep), frictionAngle=steep, dilationAngle=0)
 	scene(H, (9.81 * np.sin(beta), -9.81 * np.cos(beta), 0), lambda y: weight * (head - y * np.cos(beta)), (dict(rain=q * np.cos(beta)), None), law=MpmMohrCoulombMat, **soil)
 	O.engines[0].newton.tolerance = 1e-6
-	try:
-		while O.time < 1.5 * expected * 3600:
-			O.dt = (.02 if O.time < .9 * expected * 3600 else .0025) * expected * 3600
-			O.step()
-	except RuntimeError:  # no equilibrium any more
-		failed = (O.time + O.dt) / 3600
-	print(f'failure: after {failed:.1f} h of rain, by limit equilibrium {expected:.1f} h, {100 * (failed / expected - 1):+.2f} %')
+	O.dt = .02 * expected * 3600
+	found = mpm.safetyInTime([part * expected * 3600 for part in (.02, .2, .4, .6, .8, .9)])
+	off = 0
+	for seconds, F in zip(found['time'], found['factor']):
+		exact = np.interp(seconds / 3600, hours, factors)
+		off = max(off, abs(F / exact - 1))
+		compared(f'factor of safety of an infinite slope after {seconds / 3600:.0f} h of rain', F, exact, "limit equilibrium with Richards' equation by finite volumes")
+	O.dt = .0025 * expected * 3600
+	last = mpm.safetyInTime([1.5 * expected * 3600])
+	failed = last['failureTime'] / 3600
+	print(f'failure: F within {100 * off:.1f} % of limit equilibrium; after {failed:.1f} h of rain, by limit equilibrium {expected:.1f} h, {100 * (failed / expected - 1):+.2f} %')
 	compared('time to failure of an infinite slope under rain', failed, expected, "limit equilibrium with Richards' equation by finite volumes", 'h')
 	axes.plot(hours, factors, label='limit equilibrium')
+	axes.plot(found['time'] / 3600, found['factor'], 'ko', ms=3, label='strength reduction')
 	axes.axvline(failed, color='k', ls='--', lw=1, label='no equilibrium any more')
 	axes.set(title='infinite slope under rain', xlabel='time [h]', ylabel='factor of safety')
 	below(axes)

@@ -119,16 +119,23 @@ namespace {
 		return same;
 	}
 
-	py::dict weakened(MpmImplicitEngine& engine, Real factor)
+	// Refuses scenes the strength of which cannot be reduced, whatever the factor.
+	void requireReducible(MpmImplicitEngine& engine)
 	{
-		if (!(factor > 0 && std::isfinite(factor)))
-			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
+		requireUndivided(engine);
 		for (const Listed& listed : engine.conditions())
 			if (listed.condition->partsBodies())
 				throw std::invalid_argument(
 				        engine.getClassName() + ": the strength cannot be reduced with contact between bodies of points (" + listed.name()
 				        + ") yet: what presses them together would go with the modulus.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
+	}
+
+	py::dict weakened(MpmImplicitEngine& engine, Real factor)
+	{
+		if (!(factor > 0 && std::isfinite(factor)))
+			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
+		requireReducible(engine);
 		gimpm::WeakBody<3> found; // result in either dimension
 		onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto& load) {
 			const gimpm::StepControl control(1, engine.newton->minStep, engine.newton->maxIterations);
@@ -240,6 +247,9 @@ void addStudyMethods(py::object pythonClass)
 	        "small displacements: *carries*; *reached*: the factor of the last equilibrium; *displacement* (3N,) [m] and *plasticStrain* (N,) [-] of the points "
 	        "from the current state to there, in order of body id; *iterations*, *parts*, and *cause* of an end before the factor. The scene is left alone. "
 	        "mpm.strengthReduction looks for the factor of safety with it. Raises ValueError as a step does, and without a strength that could be divided.");
+	py::objects::add_to_namespace(
+	        pythonClass, "_requireStrength", py::make_function(&requireReducible),
+	        "_requireStrength()\n\nRaises ValueError if no factor of safety can be found in this scene at any time.");
 	py::objects::add_to_namespace(
 	        pythonClass, "workload", py::make_function(&workload),
 	        "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "

@@ -58,7 +58,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`checkLaw`             whether the tangent of a law, as of a user material, is that of its stress
 :func:`calibrate`            parameters of a law from the curves of laboratory tests; :func:`typicalSand` has them where there are none
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
-:func:`strengthReduction`    factor of safety, as a bracket
+:func:`strengthReduction`    factor of safety, as a bracket; :func:`safetyInTime` runs a scene and finds it at given times
 :func:`examples`             scripts to begin from, by a word: mpm.examples('footing')
 ===========================  ==========================================================================================
 
@@ -73,6 +73,7 @@ from .analysis.advice import advise
 from .analysis.bending import sectionForces
 from .analysis.darcy import seepage
 from .analysis.discretisation import discretisationError, stressError
+from .analysis.failing import safetyInTime
 from .analysis.safety import strengthReduction
 from .base.naming import didYouMean as _didYouMean, telling as _telling, tellShortNames as _tellShortNames
 from .earthquake.damping import rayleigh, schemeDamping
@@ -106,7 +107,7 @@ from .points.geostatics import geostatic
 from .points.tables import export, frame
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'untilAccurate', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'untilAccurate', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'safetyInTime', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

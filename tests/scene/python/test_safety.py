@@ -146,3 +146,70 @@ print(json.dumps([told, slope(2e4, 20)]))
 	).result
 	assert told.startswith('strengthReduction: cells of 1 m carry') and 'tan(phi) / tan(beta)' in told and 'halved cells' in told, told
 	assert 1 < found < 3
+
+
+def test_factors_in_time_leave_the_run_as_it_is(yade):
+	"""A slope under rain goes on with the same bits as without factors, and these fall; what cannot be done is refused by name before a step is made."""
+	differ, times, factors, bounds, failed, refusals, steps = yade(
+	        scene + '''
+import numpy as np
+from yade.wrapper import MpmDrain, MpmDynamicEngine, MpmFlow, MpmVanGenuchten
+
+beta, H, h = np.radians(40), 1., .2
+
+def rainy(rain=2e-6, law=MpmMohrCoulombMat, engine=MpmImplicitEngine, **strength):
+	O.reset()
+	O.materials.append(law(young=1e8, poisson=.3, density=1900, conductivity=1e-6, porosity=.4, retention=MpmVanGenuchten(alpha=1, n=2), label='soil', **strength))
+	grid = MpmGrid(cellSize=h, period=(3 * h, 0, 0))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3 * h, 0), (3 * h, H), (0, H)]), grid, 2, 'soil'))
+	mpm.assign(excessPressure=[-2e4 - 9810 * np.cos(beta) * y for y in mpm.arrays()['pos'][:, 1]])
+	flow = MpmFlow(total=True, drains=[MpmDrain(surface=[(3 * h, H), (0, H)], rain=rain)])
+	O.engines = [engine(grid=grid, gravity=(9.81 * np.sin(beta), -9.81 * np.cos(beta), 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], flow=flow, loadCurve=[(0, 1), (1, 1)], verbosity=0)]
+	O.dt = 3600
+
+sand = dict(cohesion=1e3, frictionAngle=radians(32), dilationAngle=radians(32))
+
+def state(): return mpm.arrays(), np.array([O.engines[0].flow.waterIn, O.engines[0].flow.waterStored, O.engines[0].loadTime, O.time, O.iter])
+
+rainy(**sand)
+for _ in range(8): O.step()
+alone = state()
+rainy(**sand)
+found = mpm.safetyInTime([3600, 7200, 14400, 18000], tolerance=.02)
+for _ in range(3): O.step()
+points, water = state()
+differ = [name for name, values in points.items() if values.tobytes() != alone[0][name].tobytes()] + ['water'] * (water.tobytes() != alone[1].tobytes())
+# until no equilibrium is left
+rainy(2e-5, **dict(sand, cohesion=100))
+failing = mpm.safetyInTime([3600 * hour for hour in range(1, 400, 8)], tolerance=.05)
+refusals = []
+def refused(make, *arguments, **more):
+	make()
+	try: mpm.safetyInTime(*arguments, **more)
+	except (ValueError, TypeError) as error: refusals.append(str(error))
+	else: refusals.append('')
+def begun():
+	rainy(**sand)
+	O.step(), O.step()
+def still():
+	rainy(**sand)
+	O.dt = 0
+refused(lambda: rainy(law=MpmElasticMat), [3600])
+refused(lambda: rainy(engine=MpmDynamicEngine, **sand), [3600])
+refused(begun, [3600])
+refused(still, [3600])
+for bad in 3600, [], ['a'], [7200, 3600]: refused(lambda: rainy(**sand), bad)
+print(json.dumps([differ, found['time'].tolist(), found['factor'].tolist(), (found['upper'] - found['lower']).tolist(),
+	[failing['failureTime'], failing['factor'].tolist(), failing['end'], float(failing['time'][-1]), O.engines[0].loadTime], refusals, O.iter]))
+'''
+	).result
+	assert not differ and times == [3600, 7200, 14400, 18000]
+	assert factors[0] > factors[-1] > 1 and max(bounds) < 0.03
+	time, values, end, last, reached = failed
+	assert values[0] > values[-1] and len(values) < 50
+	if values[-1] < 1: assert values[-2] >= 1 and last - 8 * 3600 <= time <= last, 'the factor passes one there'
+	else: assert end and last <= time == reached, 'no equilibrium is left'
+	for part, message in zip(
+	        ['all materials are elastic', 'MpmDynamicEngine', 'O.time is 7200 s already', 'O.dt = 0', 'times = 3600', 'times = []', "times = ['a']", 'must grow'], refusals, strict=True
+	):
+		assert message.startswith('safetyInTime: ') and part in message, (part, message)
