@@ -28,7 +28,7 @@ runs = {
         'walls': ['walls.py', 'walls.py --load lid', 'cook.py', 'cook.py --poisson 0.4999 --fBar 1'],
         'water': ['water.py', 'dam.py', 'drawdown.py', 'reservoir.py'],
         'consolidation': ['consolidation.py'],
-        'rain': ['rain.py', 'recharge.py'],
+        'rain': ['rain.py', 'recharge.py', 'drawdown.py'],
         'embankment': ['embankment.py'],
         'sheet_pile': ['sheet_pile.py', 'sheet_pile.py --cellSize 0.25 --depth 3'],
         'lined_tunnel': ['lined_tunnel.py', 'shaft.py'],

@@ -19,6 +19,7 @@ struct Pores {
 	bool             areRigid      = false;   ///< water passes without pressing on the grains, and their strain displaces no water
 	const Retention* retention     = nullptr; ///< null: the pores are always full
 	double           verticalRatio = 1;       ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
+	double           weightPart    = 1;       ///< part of the weight of the soil that acts [-], in a stage of construction
 
 	/// Horizontal conductivity for the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {
@@ -29,6 +30,9 @@ struct Pores {
 
 	/// Largest conductivity of all directions over the horizontal one.
 	double largestRatio() const { return verticalRatio > 1 ? verticalRatio : 1; }
+
+	/// Coupling of strain and pressure [-].
+	double coupling() const { return areRigid ? 0 : 1; }
 
 	/// True if grains, which keep their volume, leave room for water.
 	bool areOpen(double J) const { return J > 1 - porosity; }

@@ -4,6 +4,7 @@
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/conditions/flow/pointMass.hpp"
 #include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/moving.hpp"
@@ -70,7 +71,7 @@ std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(schem
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
 	const auto points = materialPoints(*ownScene(), mask);
-	Energies   own    = energiesOf(points);
+	Energies   own    = energiesOf(points, pointMass(flow, gravity));
 	if (!isElasticEnergyKnown(points)) own.elastic = std::numeric_limits<Real>::quiet_NaN();
 	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,7 @@
 #include "core/base/sentence.hpp"
 #include "core/stepping/explicit_step.hpp"
 #include "core/terms/inertia/inertia.hpp"
+#include "engine/conditions/flow/pointMass.hpp"
 #include "engine/engines/MpmDynamicEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
 #include "engine/engines/plastic_work.hpp"
@@ -28,15 +29,16 @@ namespace {
 
 template <int Dim>
 Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points)
-        : engine(e), energy(std::isnan(e.firstEnergy) ? energiesOf(points).total() : 0), motion(new gimpm::Motion<Dim>)
+        : engine(e), energy(std::isnan(e.firstEnergy) ? energiesOf(points, pointMass(e.flow, e.gravity)).total() : 0), motion(new gimpm::Motion<Dim>)
 {
 	motion->scheme    = engine.timeScheme();
 	motion->ghostMass = engine.ghostMass();
 	// so much below that of the balance that what Newton's method leaves is not touched by it
 	motion->exactness = std::max(motion->exactness, 1e-3 * job.model.newton.tolerance);
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
+	const PointMass mass = pointMass(engine.flow, engine.gravity);
 	for (size_t p = 0; p < points.size(); ++p) {
-		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);
+		motion->mass.push_back(mass(points[p]));
 		motion->velocity.push_back(finiteInDimension<Dim>(points[p], "vel", points[p].state->vel));
 		motion->acceleration.push_back(finiteInDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
@@ -111,7 +113,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	for (size_t p = 0; p < points.size(); ++p) {
 		Vector3r moved    = Vector3r::Zero();
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
-		work += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
+		work += moved.dot(massOfFull(points[p]) * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
 	engine.loadWork = ofAll(work, job);
 	Work sum;

@@ -5,12 +5,12 @@
 
 namespace yade {
 
-Energies energiesOf(const vector<MaterialPoint>& points)
+Energies energiesOf(const vector<MaterialPoint>& points, const PointMass& mass)
 {
 	Energies sum;
 	for (const MaterialPoint& point : points) {
 		const MpmState& state = *point.state;
-		const Vector3r  p     = point.material->density * state.volume0 * state.vel;
+		const Vector3r  p     = mass(point) * state.vel;
 		sum.momentum += p;
 		sum.angularMomentum += state.pos.cross(p);
 		sum.kinetic += p.dot(state.vel) / 2;

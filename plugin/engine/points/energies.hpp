@@ -2,6 +2,7 @@
 #pragma once
 #include "core/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include <functional>
 
 namespace yade {
 
@@ -14,7 +15,12 @@ struct Energies {
 	Real total() const { return kinetic + elastic; }
 };
 
-Energies energiesOf(const vector<MaterialPoint>&);
+using PointMass = std::function<Real(const MaterialPoint&)>; // [kg]
+
+// With pores that are as full as the density of the material says.
+inline Real massOfFull(const MaterialPoint& point) { return point.material->density * point.state->volume0; }
+
+Energies energiesOf(const vector<MaterialPoint>&, const PointMass& = massOfFull);
 
 // True if the elasticity of all points is Hencky's, whose energy elasticEnergy is.
 bool isElasticEnergyKnown(const vector<MaterialPoint>&);

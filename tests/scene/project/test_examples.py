@@ -647,6 +647,23 @@ def test_a_cut_under_rain(yade):
 	assert all((run.folder / f'out/cut/cut.{kind}').stat().st_size > 20000 for kind in ('png', 'gif'))
 
 
+def test_a_slope_whose_reservoir_falls(yade):
+	"""Factors beside slices on coarse cells: lowest at once, and between while water takes its time."""
+	run = yade(root / 'examples' / 'rain' / 'drawdown.py', '--cellSize', 2, '--factors', 2, '--steps', 2)
+	found = re.findall(r'drawn down in \S+ days, (.+): F = (\S+), slices \S+ \((\S+) %\)', run.stdout)
+	assert [name for name, *_ in found] == ['at once', 'full', 'slowly']
+	fast, full, slow = (float(F) for _, F, _ in found)
+	assert 1 < fast < slow < full and all(abs(float(off)) < 8 for name, _, off in found if name != 'at once')
+	assert all((run.folder / f'out/drawdown/{name}').stat().st_size > 20000 for name in ('drawdown.png', 'drawdown-100.gif'))
+
+
+def test_implicit_and_explicit_steps_of_wet_soil(yade):
+	"""Silt runs out in implicit steps; explicit ones that water would bound are many more."""
+	run = yade(root / 'examples' / 'rain' / 'steps.py', '--cellSize', 1, '--end', 0.2, '--young', '5e6', '--conductivity', '1e-6', '--timed', 5)
+	row = [float(cell) for cell in run.stdout.strip().splitlines()[-1].strip('| ').split('|')]
+	assert row[5] == 20 and row[7] >= 0 and row[8] > 10 * row[5]
+
+
 def test_recharge(yade):
 	"""A water table against finite volumes and readings, in two dimensions."""
 	run = yade(root / 'examples' / 'rain' / 'recharge.py', '--cellSize', 0.1, '--longest', 480, '--volumes', 30)

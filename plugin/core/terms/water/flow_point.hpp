@@ -71,7 +71,7 @@ struct PorePoint {
 	double       pressure; ///< [Pa]
 	const Pores* pores;
 
-	double coupling() const { return pores->areRigid ? 0 : 1; } ///< coupling of strain and pressure
+	double coupling() const { return pores->coupling(); } ///< coupling of strain and pressure
 };
 
 /// At an iterate: F is that of the step.

@@ -280,11 +280,11 @@ private:
 	void addForcesUnsaturated(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
 		const double V = point.volume * s.J, V0 = point.volume / point.ratio, flow = duration_ * V * s.density * s.kappa.value * u.permeability;
-		const double gained = V0 * (u.content - point.pores->porosity);
+		const double gained = point.pores->weightPart * V0 * (u.content - point.pores->porosity), pushes = point.coupling() * V * u.push.value;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
-				const double push = -V * u.push.value * at_.dilation[i][a], weight = -gained * weight_[i] * at_.value[a];
+				const double push = -pushes * at_.dilation[i][a], weight = -gained * weight_[i] * at_.value[a];
 				force_[i][a] += push + weight, absoluteContributions_[i][a] += std::abs(push) + std::abs(weight);
 			}
 			const double passes = flow * at_.along[a], ofStored = V0 * wet_.stored[a] * at_.value[a];
@@ -294,15 +294,16 @@ private:
 	/// Derivatives of the pressure on the grains, and of the weight by pressures.
 	void addPush(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
-		const double V = point.volume * s.J, V0 = point.volume / point.ratio, pushes = V * u.push.value;
-		Row          byPressure = {}; // of the content
+		const double coupled = point.coupling() * point.volume * s.J, weighs = point.pores->weightPart * point.volume / point.ratio,
+		             pushes = coupled * u.push.value;
+		Row byPressure      = {}; // of the content
 		for (int m = 0; m < count_; ++m)
 			byPressure[own_[m]] = at_.value[own_[m]] * (wet_.capacity[own_[m]] + u.content / modulus_);
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0, pair = 0; i < Dim; ++i) {
-				addTimes(up_[i][a], -V * u.push.slope * at_.dilation[i][a], at_.value);
-				addTimes(up_[i][a], -V0 * weight_[i] * at_.value[a], byPressure);
+				addTimes(up_[i][a], -coupled * u.push.slope * at_.dilation[i][a], at_.value);
+				addTimes(up_[i][a], -weighs * weight_[i] * at_.value[a], byPressure);
 				for (int k = i + 1; k < Dim; ++k, ++pair) {
 					addTimes(turn_[pair][a], pushes * at_.gradient[k][a], at_.gradient[i]);
 					addTimes(turn_[pair][a], -pushes * at_.gradient[i][a], at_.gradient[k]);
@@ -313,12 +314,13 @@ private:
 	/// Derivatives of the content, whose growth by displacements has weight, too.
 	void addStorage(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
-		const double grown = point.volume * s.J * s.density, V0 = point.volume / point.ratio, saturation = u.content / u.filled;
+		const double grown = point.coupling() * point.volume * s.J * s.density, V0 = point.volume / point.ratio,
+		             weighs = grown * point.pores->weightPart * u.content / u.filled;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
 				addTimes(pu_[i][a], grown * wet_.saturation[a] * at_.value[a], at_.dilation[i]);
-				addTimes(grown_[i][a], grown * saturation * at_.value[a], at_.dilation[i]);
+				addTimes(grown_[i][a], weighs * at_.value[a], at_.dilation[i]);
 			}
 			pp_[a][a] += V0 * at_.value[a] * wet_.capacity[a];
 			addTimes(pp_[a], V0 * at_.value[a] * wet_.saturation[a] * u.filled / modulus_, at_.value);

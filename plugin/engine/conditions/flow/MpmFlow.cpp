@@ -24,8 +24,6 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 {
 	string what;
 	if (analysis.isExplicit()) what = analysis.className() + ".scheme = 'explicit'";
-	else if (total && analysis.isDynamic())
-		what = analysis.className() + " and total = True, as the mass of a point does not yet go with its water";
 	else if (total && analysis.distributed)
 		what = analysis.className() + ".distributed = True and total = True";
 	else if (analysis.ghost->workTolerance < 1)

@@ -33,6 +33,7 @@ namespace {
 		gimpm::Pores pores { m.conductivity.horizontal / unitWeight, m.porosity };
 		pores.verticalRatio = m.conductivity.ratio();
 		pores.areRigid      = point.material->isDugOut;
+		pores.weightPart    = point.material->share;
 		if (m.conductivityLaw == "kozeny-carman") pores.law = gimpm::Pores::Law::kozenyCarman;
 		if (m.conductivityLaw == "log") pores.law = gimpm::Pores::Law::logarithmic, pores.index = m.conductivityIndex;
 		return pores;
@@ -103,6 +104,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
 	if (from->total) beginWhole(around);
 	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
+	if (pressuresAreNew) fillNewPoints(around.cloud.material);
 	takeNodes();
 	takeDrains(model, around);
 	Real       sum = 0, fastest = 0; // sum of constrained moduli; largest coefficient of consolidation
@@ -146,7 +148,7 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 			ofMaterial = poresOf(points[p], *points[p].material, from->unitWeight);
 		gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
 		pores.retention     = curveOf(points[p]);
-		if (water.whole) water.whole->saturation.push_back(points[p].state->saturation);
+		if (water.whole) water.whole->saturation.push_back(points[p].state->saturation), pressuresAreNew |= std::isnan(points[p].state->saturation);
 		water.pressure.push_back(points[p].state->excessPressure);
 		const Real J = around.cloud.volumeRatio(p);
 		if (!pores.areOpen(J))
@@ -160,10 +162,7 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 // Pressures that points have been given count, not what the nodes had before.
 template <int Dim> void Flows<Dim>::takeNodes()
 {
-	if (water.whole) {
-		const auto& known = water.whole->saturation;
-		if (std::any_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); })) return;
-	}
+	if (pressuresAreNew) return;
 	for (size_t i = 0; i + 3 < from->nodes.size(); i += 4) {
 		const auto key = nodeAt<Dim>(&from->nodes[i], lattice);
 		if (!key) continue; // cells have changed

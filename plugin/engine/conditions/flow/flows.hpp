@@ -24,6 +24,7 @@ private:
 	void                              beginWhole(const Surroundings<Dim>&);
 	const gimpm::Retention*           curveOf(const MaterialPoint&);
 	void                              takePoints(const Surroundings<Dim>&, const gimpm::Division&);
+	void                              fillNewPoints(const vector<int>& materials);
 	void                              takeNodes();
 	void                              takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
 	void                              keepNodes();
@@ -33,9 +34,10 @@ private:
 	gimpm::SoilWater<Dim>                                  water;
 	gimpm::Grid<Dim>                                       lattice;
 	shared_ptr<MpmWater>                                   still; // null: there is none with a level
-	Real acrossCell = std::numeric_limits<Real>::infinity();      // time in which pressures spread over a cell where they do fastest [s]
-	Real shortest   = acrossCell;                                 // step [s]
-	bool isRamp     = false;                                      // the loads grow within the first second, as nobody has said otherwise
+	Real acrossCell      = std::numeric_limits<Real>::infinity(); // time in which pressures spread over a cell where they do fastest [s]
+	Real shortest        = acrossCell;                            // step [s]
+	bool pressuresAreNew = false;                                 // whole pressures of some points have been given since the last step
+	bool isRamp          = false;                                 // the loads grow within the first second, as nobody has said otherwise
 };
 
 } // namespace yade

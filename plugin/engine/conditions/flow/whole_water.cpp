@@ -28,8 +28,6 @@ template <int Dim> const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoi
 	const auto         refuse   = [&](const string& what) {
                 throw std::invalid_argument("Body #" + std::to_string(point.id) + ": its material '" + material.label + "' " + what);
 	};
-	if (from->total && (material.isDugOut || material.share != 1))
-		refuse("is placed or dug out step by step (mpm.stages), which does not yet go with flow.total = True.");
 	if (!material.retention) return nullptr;
 	if (!from->total) refuse("has a retention curve, which needs MpmFlow(total=True): then excessPressure is the whole pressure of the water.");
 	const gimpm::Retention*& curve = curves[material.retention.get()];
@@ -40,18 +38,31 @@ template <int Dim> const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoi
 	return curve;
 }
 
+// Points that join others bring the water of their pressure. Where all are new, that of the nodes counts.
+template <int Dim> void Flows<Dim>::fillNewPoints(const vector<int>& materials)
+{
+	auto& known = water.whole->saturation;
+	if (std::all_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); })) return;
+	for (size_t p = 0; p < known.size(); ++p)
+		if (std::isnan(known[p]))
+			known[p] = gimpm::saturationOf(water.ownPores.empty() ? water.pores[materials[p]] : water.ownPores[p], water.pressure[p]).value;
+}
+
 // Keeps suction and water in a study as they are.
 template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>& step) const
 {
-	if (!water.whole) return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step);
 	vector<Real>            pushes;
 	vector<gimpm::Vec<Dim>> weights;
 	for (size_t p = 0; p < water.pressure.size(); ++p) {
 		const gimpm::Pores& pores = water.ownPores.empty() ? water.pores[step.cloud.material[p]] : water.ownPores[p];
-		const Real          known = water.whole->saturation[p], full = step.cloud.volumeRatio(p) - 1 + pores.porosity;
-		const Real          S = std::isnan(known) ? gimpm::saturationOf(pores, water.pressure[p]).value : known;
-		pushes.push_back(gimpm::pressureOnGrains(pores, water.whole->bishop, water.pressure[p]).value);
-		weights.push_back(step.cloud.volume0[p] * (S * full - pores.porosity) * water.whole->factor * water.whole->weight);
+		if (!water.whole) {
+			pushes.push_back(pores.coupling() * water.pressure[p]);
+			continue;
+		}
+		const Real known = water.whole->saturation[p], full = step.cloud.volumeRatio(p) - 1 + pores.porosity;
+		const Real S = std::isnan(known) ? gimpm::saturationOf(pores, water.pressure[p]).value : known;
+		pushes.push_back(pores.coupling() * gimpm::pressureOnGrains(pores, water.whole->bishop, water.pressure[p]).value);
+		weights.push_back(pores.weightPart * step.cloud.volume0[p] * (S * full - pores.porosity) * water.whole->factor * water.whole->weight);
 	}
 	return std::make_unique<gimpm::FrozenPressures<Dim>>(pushes, step, weights);
 }
@@ -59,6 +70,7 @@ template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gi
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>&) const;                                                   \
 	template void                              Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                           \
+	template void                              Flows<Dim>::fillNewPoints(const vector<int>&);                                                              \
 	template const gimpm::Retention*           Flows<Dim>::curveOf(const MaterialPoint&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

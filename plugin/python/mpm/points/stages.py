@@ -24,6 +24,7 @@ from ..base.solver import noPoints, solverOf
 from ..geometry.regions import inside
 from ..library import engine as _library
 from .data import arrays, assign, pointsOf, withMaterials
+from .suction import poreWater
 
 __all__ = ['place', 'excavate', 'replace', 'release', 'resetDisplacements']
 nameInScenes('stages', __name__)
@@ -33,7 +34,7 @@ _softness = 0.05  # part of its stiffness that is left to soil that is dug out
 def place(bodies, steps=1, solver=None):
 	"""Append material points, as :func:`fill` returns them, to the scene; their weight grows to its full value in the next *steps* load steps, in equal parts, and with it what water does to them and point loads on them.
 
-	Points begin without stress, where they have been filled. What has been there settles meanwhile: fill a layer up to its height at the end.
+	Points begin without stress, where they have been filled, and with *MpmFlow.total* have the water of the pressures that they are given (:func:`assign`). What has been there settles meanwhile: fill a layer up to its height at the end.
 
 	:param bodies: material points that the scene does not have yet; or the range of ids of those that :func:`add` has just put there
 	:param steps: load steps, an integer >= 1
@@ -75,7 +76,7 @@ def _added(ids, solver):
 def excavate(region, steps=1, solver=None):
 	"""Take the material points of an engine out of a region. What they do to the others, by stress, weight, point loads and water, goes to zero in the next *steps* load steps, in equal parts.
 
-	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness, in which the excess pressure of the water is part of the stress. With *MpmImplicitEngine.flow* water passes it until then.
+	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness, in which the excess pressure of the water is part of the stress. With *MpmImplicitEngine.flow* water passes it until then, and goes with it in the end.
 
 	:param region: predicate of the current positions, as for :func:`fill`
 	:param steps: load steps, an integer >= 1
@@ -88,7 +89,7 @@ def excavate(region, steps=1, solver=None):
 	points, materials, number, inRegion = _pointsIn('excavate', region, solver)
 	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
 	_requireNoLoad(solver, points, inRegion)
-	ids, stress = points['id'][inRegion].tolist(), _totalStress(points)[inRegion]
+	ids, stress = points['id'][inRegion].tolist(), _totalStress(points, solver, materials, number)[inRegion]
 	materials = _byLabel('excavate', [materials[i] for i in np.unique(number[inRegion])])
 	if steps == 1:
 		_erase(ids)
@@ -126,11 +127,12 @@ def replace(region, material, steps=1, solver=None):
 	"""
 	solver, steps = _static('replace', solver), _number('replace', steps)
 	points, materials, number, inRegion = _pointsIn('replace', region, solver)
+	if solver.flow and solver.flow.total: raise ValueError('replace: with MpmFlow(total=True) pores of another soil would have another suction at once; excavate the region and place the new material')
 	new = materialOf('replace', material)
 	if not isinstance(new, wrapper.MpmMaterial): raise TypeError(f'replace: material = {brief(material)} is a {type(new).__name__}, which is no material of material points')
 	ids = points['id'][inRegion].tolist()
 	isDrained = np.array([m.undrained and not new.undrained for m in materials])[number[inRegion]]
-	stress = np.where(isDrained[:, None, None], _totalStress(points)[inRegion], points['stress'][inRegion])
+	stress = np.where(isDrained[:, None, None], _totalStress(points, solver, materials, number)[inRegion], points['stress'][inRegion])
 	before = np.array([m.density for m in materials])[number[inRegion]]
 	_renew(ids, new, stress)
 	if steps == 1: return len(ids)
@@ -143,9 +145,13 @@ def replace(region, material, steps=1, solver=None):
 	return len(ids)
 
 
-def _totalStress(points):
-	"""Stress of the grains less the excess pressure of the water. The pressure of an MpmWater is not part of it: that goes on acting."""
-	return points['stress'] - points['excessPressure'][:, None, None] * np.eye(3) if 'excessPressure' in points else points['stress']
+def _totalStress(points, solver, materials, number):
+	"""Stress of the grains less the excess pressure of the water, or less what suction is to them. The pressure of an MpmWater is not part of it: that goes on acting."""
+	if 'excessPressure' not in points: return points['stress']
+	pressure = points['excessPressure'].copy()
+	for i, material in enumerate(materials if solver.flow and solver.flow.total else ()):
+		pressure[number == i] = poreWater(solver.flow, material, pressure[number == i])[1]
+	return points['stress'] - pressure[:, None, None] * np.eye(3)
 
 
 def _renew(ids, material, stress):
@@ -293,7 +299,7 @@ def _twin(material, label, ids, **changes):
 def _soft(material, label, ids):
 	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
 	young, poisson = _elastic(material)
-	ofPores = {name: getattr(material, name) for name in ('conductivity', 'porosity', 'conductivityLaw', 'conductivityIndex')}
+	ofPores = {name: getattr(material, name) for name in ('conductivity', 'porosity', 'conductivityLaw', 'conductivityIndex', 'retention')}
 	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density, **ofPores)
 	for body in _here(ids):
 		if body.material != material: continue

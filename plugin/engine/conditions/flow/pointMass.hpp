@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Mass of material points with the water that their pores have.
+#include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "engine/points/energies.hpp"
+
+namespace yade {
+
+// Null: no water flows. Gravity tells the density of the water from its weight.
+PointMass pointMass(const shared_ptr<MpmFlow>&, const Vector3r& gravity);
+
+} // namespace yade
