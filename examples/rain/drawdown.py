@@ -35,6 +35,6 @@ for name, (days, *water) in cases.items():
 	print(f'drawn down in {days:g} days, {name}: F = {F:.3f}, slices {limit:.3f} ({100 * (F / limit - 1):+.1f} %)')
 	compared(f'factor of safety of a slope with suction, reservoir {name}, {days:g} days', F, limit, 'slices after Bishop 1955')
 	right.axhline(limit, color='k', ls=':', lw=1)
-right.legend(title='drawn down in; dotted: slices', loc='center right', bbox_to_anchor=(1, 0.33))
-right.set(xlabel='time over that of the drawdown [-]', ylabel='factor of safety')
+right.legend(loc='center right', bbox_to_anchor=(1, 0.33))
+right.set(xlabel='time over that of the drawdown [-]', ylabel='factor of safety, dotted: slices')
 figure.savefig(os.path.join(options.out, 'drawdown.png'), dpi=110)
