@@ -67,11 +67,13 @@ vector<Listed> MpmDynamicEngine::conditions() const
 
 std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(scheme, beta, gamma, rhoInfinity, timeTolerance, rayleigh); }
 
+PointMass MpmDynamicEngine::pointMass() const { return yade::pointMass(flow, gravity); }
+
 // The imbalance is what integration in time and the way of velocities to the grid and back have added.
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
 	const auto points = materialPoints(*ownScene(), mask);
-	Energies   own    = energiesOf(points, pointMass(flow, gravity));
+	Energies   own    = energiesOf(points, pointMass());
 	if (!isElasticEnergyKnown(points)) own.elastic = std::numeric_limits<Real>::quiet_NaN();
 	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {

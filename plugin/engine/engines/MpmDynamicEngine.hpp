@@ -3,16 +3,18 @@
 #include "core/terms/inertia/time_scheme.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
+#include "engine/points/energies.hpp"
 
 namespace yade {
 class MpmAbsorbingBoundary;
 
 class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
-	string scheme = "newmark";
-	Real   beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
-	int    loosePoints = 0;
-	Real   loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
+	PointMass pointMass() const; // with the water that pores have
+	string    scheme = "newmark";
+	Real      beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
+	int       loosePoints = 0;
+	Real      loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
 	// When the first step began; NaN: there was none.
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN();
 	vector<Vector3r> reactionsBefore;    // those of the step before

@@ -3,7 +3,6 @@
 #include "core/base/sentence.hpp"
 #include "core/stepping/explicit_step.hpp"
 #include "core/terms/inertia/inertia.hpp"
-#include "engine/conditions/flow/pointMass.hpp"
 #include "engine/engines/MpmDynamicEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
 #include "engine/engines/plastic_work.hpp"
@@ -29,14 +28,14 @@ namespace {
 
 template <int Dim>
 Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points)
-        : engine(e), energy(std::isnan(e.firstEnergy) ? energiesOf(points, pointMass(e.flow, e.gravity)).total() : 0), motion(new gimpm::Motion<Dim>)
+        : engine(e), energy(std::isnan(e.firstEnergy) ? energiesOf(points, e.pointMass()).total() : 0), motion(new gimpm::Motion<Dim>)
 {
 	motion->scheme    = engine.timeScheme();
 	motion->ghostMass = engine.ghostMass();
 	// so much below that of the balance that what Newton's method leaves is not touched by it
 	motion->exactness = std::max(motion->exactness, 1e-3 * job.model.newton.tolerance);
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
-	const PointMass mass = pointMass(engine.flow, engine.gravity);
+	const PointMass mass = engine.pointMass();
 	for (size_t p = 0; p < points.size(); ++p) {
 		motion->mass.push_back(mass(points[p]));
 		motion->velocity.push_back(finiteInDimension<Dim>(points[p], "vel", points[p].state->vel));

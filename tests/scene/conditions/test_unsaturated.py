@@ -246,7 +246,7 @@ print(json.dumps([rest, stress, flows, said]))
 
 
 def test_layers_are_placed_and_dug_out_with_their_suction(yade):
-	"""A column whose layer is dug out in four parts, or placed, with water that can go nowhere: what the base bears is weight by hand with the water that is there, and placed soil keeps its saturation."""
+	"""A column whose layer is dug out in four parts, or placed, with water that can go nowhere: the base bears the weight with the water that is there, and placed soil keeps its saturation."""
 	dug, before, heave, placed, wet, balance, refused = yade(
 	        setting + '''
 def base(): return solver.reactions[2][1]
