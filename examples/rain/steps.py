@@ -43,6 +43,6 @@ for young in map(float, options.young.split(',')):
 		bank(young, conductivity, flow=MpmFlow(total=True, bulkModulus=water, drains=[MpmDrain(surface=[(0, 0), (2, 0)], flux=0)]))
 		O.dt, begin = options.step, time.time()
 		while O.time < options.end - O.dt / 2: O.step()
-		seconds, reached = time.time() - begin, mpm.arrays()['pos'][:, 0].max() - 8
+		seconds, reached = time.time() - begin, mpm.arrays()['pos'][:, 0].max() - mpm.arrays()['pos0'][:, 0].max()
 		full, half = options.end / min(undrained, spread), options.end / drained
 		print(f'| {young / 1e6:g} | {conductivity:g} | {1e3 * drained:.2f} | {1e3 * undrained:.3f} | {1e3 * spread:.3g} | {O.iter} | {seconds:.0f} | {reached:.2f} | {full:.0f} | {full * each:.0f} | {half:.0f} | {half * each:.1f} |')
