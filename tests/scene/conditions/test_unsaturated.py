@@ -123,6 +123,31 @@ print(json.dumps([rates, [float(points['excessPressure'][abs(y - at) < .3].mean(
 		assert Se**0.5 * (1 - (1 - Se**2)**0.5)**2 == pytest.approx(part, rel=0.03)
 
 
+def test_steps_go_by_the_error_of_saturation(yade):
+	"""One O.dt in which rain wets dry sand: the parts are as short as the tolerance asks for, and the saturations differ from those of 480 steps by less than it."""
+	found = yade(
+	        setting + '''
+def wetted(steps=1, **flow):
+	solver = column(cells=40, top=dict(rain=3e-5), **flow)
+	if flow: solver.newton.stepTolerance, solver.newton.minStep = 1., 1 / 4096
+	O.dt = 1200 / steps
+	for _ in range(steps): O.step()
+	return solver.substeps, mpm.arrays()['saturation']
+_, fine = wetted(480)
+rms = lambda saturation: float(np.sqrt(((saturation - fine)**2).mean()))
+found = [[1, 1, rms(wetted()[1])]]
+for tolerance in .05, .01, .002:
+	parts, saturation = wetted(saturationTolerance=tolerance)
+	found.append([tolerance, parts, rms(saturation)])
+print(json.dumps(found))
+'''
+	).result
+	(_, _, whole), *rows = found
+	assert whole > 0.03
+	assert all(error < tolerance for tolerance, _, error in rows)
+	assert 1 < rows[0][1] < rows[1][1] < rows[2][1] < 100
+
+
 def test_curves_have_their_saturation(yade):
 	found = yade(
 	        setting + '''
@@ -151,13 +176,14 @@ def table(solver): O.materials[0].retention = MpmRetentionTable(saturations=[(0,
 def residual(solver): O.materials[0].retention.residual, O.materials[0].retention.saturated = .6, .5
 def base(solver): O.materials[0].retention = MpmRetention()
 def both(solver): solver.flow.drains[0].flux = 1e-6
+def tolerant(solver): solver.flow.saturationTolerance = .01
 print(json.dumps([refusal(total=False, top=None), refusal(total=False, retention=False), refusal(water), refusal(distributed), refusal(table),
-	refusal(residual), refusal(base), refusal(both)]))
+	refusal(residual), refusal(base), refusal(both), refusal(tolerant)]))
 '''
 	).result
 	for text, words in zip(said, [
 	        ('retention curve', 'total=True'), ('rain = 2e-06', 'total=True'), ('water[0]', "where = 'outside'"), ('distributed', 'total = True'),
-	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('flux', 'rain')
+	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('flux', 'rain'), ('saturationTolerance = 0.01', 'stepTolerance')
 	]):
 		assert all(word in text for word in words), (text, words)
 

@@ -46,24 +46,33 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 			d[Dim * n + a] = isNew ? 0 : d[Dim * n + a] - times * last->second[a];
 		p[n] = isNew ? 0 : p[n] - times * last->second[Dim];
 	}
-	const int own      = division_.ownOf(points_.size());
-	double    ofMotion = 0, ofPressure = 0, volume = 0;
+	constexpr int          order    = 2;
+	const double           part     = isFirst ? 0.5 : water_.duration / (water_.lastDuration + water_.duration);
+	const Eigen::VectorXd& now      = state.value(field);
+	const int              own      = division_.ownOf(points_.size());
+	double                 ofMotion = 0, ofPressure = 0, ofSaturation = 0, volume = 0;
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const PointFunctions<Dim> f(basis_, i, patch);
 			Vec<Dim>                  moved   = Vec<Dim>::Zero();
-			double                    pressed = 0;
+			double                    pressed = 0, pressure = 0;
 			for (int n = 0; n < f.count; ++n)
-				if (const int a = patch.node[n]; a >= 0) moved += f.value[n] * d.template segment<Dim>(Dim * a), pressed += f.value[n] * p[a];
+				if (const int a = patch.node[n]; a >= 0) {
+					moved += f.value[n] * d.template segment<Dim>(Dim * a);
+					pressed += f.value[n] * p[a], pressure += f.value[n] * now[a];
+				}
 			if (basis_.order[i] >= own) continue;
-			const double V = points_[basis_.order[i]].volume;
-			ofMotion += V * moved.squaredNorm(), ofPressure += V * pressed * pressed, volume += V;
+			const PorePoint& point = points_[basis_.order[i]];
+			ofMotion += point.volume * moved.squaredNorm(), ofPressure += point.volume * pressed * pressed, volume += point.volume;
+			if (!curves_) continue;
+			const double wetted = saturationOf(*point.pores, pressure).value - saturationOf(*point.pores, pressure - part * pressed).value;
+			ofSaturation += point.volume * wetted * wetted;
 		}
 	ofMotion = division_.sum(ofMotion), ofPressure = division_.sum(ofPressure), volume = division_.sum(volume);
-	constexpr int order = 2;
-	const double  part  = isFirst ? 0.5 : water_.duration / (water_.lastDuration + water_.duration);
-	return { { part * std::sqrt(ofMotion / volume), water_.displacementTolerance, order },
-		 { part * std::sqrt(ofPressure / volume), water_.pressureTolerance, order, "pressures", "Pa" } };
+	std::vector<LocalError> errors { { part * std::sqrt(ofMotion / volume), water_.displacementTolerance, order },
+		                         { part * std::sqrt(ofPressure / volume), water_.pressureTolerance, order, "pressures", "Pa" } };
+	if (curves_) errors.push_back({ std::sqrt(division_.sum(ofSaturation) / volume), water_.whole->saturationTolerance, order, "saturation", "(-)" });
+	return errors;
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

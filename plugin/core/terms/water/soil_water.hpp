@@ -60,7 +60,9 @@ template <int Dim> struct WholeWater {
 	Eigen::Matrix<double, Dim, 1> weight;     ///< by volume [N/m3]
 	double                        factor = 1; ///< of the weight that the soil carries, at the end of the step
 	Bishop                        bishop = Bishop::effectiveSaturation;
-	std::vector<double>           saturation {}; ///< of each point, as the last accepted step has left it; NaN: that of its pressure
+	/// Tolerance on the error that the length of a step leaves in the saturation [-], as pressureTolerance of SoilWater.
+	double              saturationTolerance = std::numeric_limits<double>::infinity();
+	std::vector<double> saturation {}; ///< of each point, as the last accepted step has left it; NaN: that of its pressure
 
 	std::vector<std::shared_ptr<const Retention>> curves {}; ///< those that Pores refer to
 };

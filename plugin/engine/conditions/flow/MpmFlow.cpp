@@ -31,10 +31,14 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 	else if (analysis.ghost->memory > 0)
 		what = "MpmGhost.memory > 0, as soil through which water flows does not go on by the growth of the load";
 	if (!what.empty()) throw std::invalid_argument("MpmFlow cannot yet go with " + what + "; leave one of the two out.");
-	if (std::isfinite(pressureTolerance) && analysis.newton->stepTolerance == 0)
+	for (const auto& [of, tolerance] : { std::pair("pressureTolerance", pressureTolerance), std::pair("saturationTolerance", saturationTolerance) })
+		if (std::isfinite(tolerance) && analysis.newton->stepTolerance == 0)
+			throw std::invalid_argument(
+			        string("MpmFlow.") + of + " = " + textOf(tolerance)
+			        + " needs the error of displacements, and MpmNewton.stepTolerance = 0: give that, too, or leave " + of + " = inf.");
+	if (std::isfinite(saturationTolerance) && !total)
 		throw std::invalid_argument(
-		        "MpmFlow.pressureTolerance = " + textOf(pressureTolerance)
-		        + " needs the error of displacements, and MpmNewton.stepTolerance = 0: give that, too, or leave pressureTolerance = inf.");
+		        "MpmFlow.saturationTolerance = " + textOf(saturationTolerance) + " is for total = True: without it all pores are full; leave it inf.");
 }
 
 std::shared_ptr<Condition<2>> MpmFlow::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Flows<2>>(group); }

@@ -7,13 +7,14 @@ namespace yade {
 
 class MpmFlow : public Exposed<MpmFlow, MpmCondition> {
 public:
-	Real                         unitWeight        = 9810;
-	Real                         bulkModulus       = std::numeric_limits<Real>::infinity();
-	Real                         stabilisation     = std::numeric_limits<Real>::quiet_NaN();
-	Real                         ghost             = 0.01;
-	Real                         pressureTolerance = std::numeric_limits<Real>::infinity();
-	bool                         total             = false;
-	string                       bishop            = "effective saturation";
+	Real                         unitWeight          = 9810;
+	Real                         bulkModulus         = std::numeric_limits<Real>::infinity();
+	Real                         stabilisation       = std::numeric_limits<Real>::quiet_NaN();
+	Real                         ghost               = 0.01;
+	Real                         pressureTolerance   = std::numeric_limits<Real>::infinity();
+	Real                         saturationTolerance = std::numeric_limits<Real>::infinity();
+	bool                         total               = false;
+	string                       bishop              = "effective saturation";
 	vector<shared_ptr<MpmDrain>> drains;
 	Real                         waterIn = 0, waterOut = 0, waterStored = 0, work = 0;
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
@@ -44,6 +45,9 @@ public:
 		v("pressureTolerance", &MpmFlow::pressureTolerance, 0,
 		  "Largest estimated error of pressures in a step [Pa] > 0, with *MpmNewton.stepTolerance*; steps beyond it are cut, and grow again, up to O.dt. inf: not checked.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
+		v("saturationTolerance", &MpmFlow::saturationTolerance, 0,
+		  "The same of the degree of saturation [-], with *total* and a retention curve: for steps in which fronts wet dry soil. inf: not checked.",
+		  admitting("a number > 0 [-], or inf", [](Real value) { return value > 0; }));
 		v("total", &MpmFlow::total, 0,
 		  "True: *MpmState.excessPressure* is the whole pressure, over that of the air, and gravity drives the water: for rain, and soil with *MpmMaterial.retention*. There is no still water then.");
 		v("bishop", &MpmFlow::bishop, 0, "Factor by which suction acts on the grains, with *total*: 'effective saturation' or 'saturation'.",

@@ -19,6 +19,7 @@ template <int Dim> void Flows<Dim>::beginWhole(const Surroundings<Dim>& around)
 	whole.weight.setZero();
 	if (!gravity.isZero(0)) whole.weight = from->unitWeight * gravity.normalized().template head<Dim>();
 	whole.bishop = bishopOf(*from);
+	if (around.analysis.newton->stepTolerance > 0) whole.saturationTolerance = from->saturationTolerance;
 }
 
 // Null: the pores of the point are always full.
