@@ -28,7 +28,6 @@ options = readOptions('Rigid bodies pressed into soil.',
         stiffness=(100., 'of the contact, over E / h'),
         every=(4, 'iterations of YADE from one equilibrium of the soil to the next, for the free Sphere'),
         rough=(0, '1: clay sticks to the footing up to c_u, 0: it slips freely'),
-        halvings=(0, 'of the cells at the edge of the footing (MpmGrid.adaptation)'),
         picture=(1, '1: draw one, 0: only numbers'))
 began = time.time()
 solves = []
@@ -68,7 +67,7 @@ def footing():
 	B, cu = 1., 1e4
 	h = B / 2 / options.cells
 	width, deep = 3 * B, 2.5 * B
-	grid = MpmGrid(cellSize=h, adaptation=[MpmAdaptation(halvings=options.halvings)] if options.halvings else [])
+	grid = MpmGrid(cellSize=h)
 	O.materials.append(MpmVonMisesMat(young=500 * cu, poisson=0.49, density=1800, yieldStress=np.sqrt(2) * cu, label='clay'))
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -deep, -1), (width, 0, 1)), grid, options.pointsPerCell, 'clay'))

@@ -79,12 +79,12 @@ def locking(scene, cells, words):
 	        quick=dict(cells=cells[:1], fBar=['0', '1']), words=words | dict(fBar='with F-bar'))
 
 
-def contact(scene, steps, together, quick, words, alone={}, around=[{}], **parameters):
+def contact(scene, steps, together, quick, words, **parameters):
 	"""Plan of a scene of examples/penetration, through MpmContact."""
 	parameters = dict(scene=f"'{scene}'", cells='4', pointsPerCell='2', stiffness='100', steps=steps, picture='0', out="'out'") | parameters
 	return Plan(
-	        script=os.path.join(here, '..', 'penetration', 'penetration.py'), parameters=parameters, together=together, alone=alone, around=around, errors=['error'],
-	        quick=quick, words=dict(pointsPerCell='points per cell and axis') | words)
+	        script=os.path.join(here, '..', 'penetration', 'penetration.py'), parameters=parameters, together=together, errors=['error'], quick=quick,
+	        words=dict(pointsPerCell='points per cell and axis') | words)
 
 
 perMetre = dict(cells='cells in a metre', pointsPerCell='points per cell and axis')
@@ -129,8 +129,7 @@ plans = {
         'clay':
                 contact(
                         'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
-                        dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', halvings='of the cells at the edge', error='limit load'),
-                        dict(halvings=['1', '2', '3']), [dict(cells=cells) for cells in ('2', '4', '8')], depth='0.03', halvings='0'),
+                        dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load'), depth='0.03'),
         'tbar':
                 Plan(
                         script=os.path.join(here, '..', 'penetration', 'deep.py'), errors=['error'],
