@@ -60,7 +60,7 @@ template <int Dim> struct WholeWater {
 	Eigen::Matrix<double, Dim, 1> weight;     ///< by volume [N/m3]
 	double                        factor = 1; ///< of the weight that the soil carries, at the end of the step
 	Bishop                        bishop = Bishop::effectiveSaturation;
-	/// Tolerance on the error that the length of a step leaves in the saturation [-], as pressureTolerance of SoilWater.
+	/// Tolerance on the error that the length of a step leaves in the saturation [-].
 	double              saturationTolerance = std::numeric_limits<double>::infinity();
 	std::vector<double> saturation {}; ///< of each point, as the last accepted step has left it; NaN: that of its pressure
 
