@@ -38,7 +38,7 @@ template <> struct Conversion<AdaptationRule> {
 
 class MpmAdaptation : public Exposed<MpmAdaptation, Serializable> {
 public:
-	int            halvings { 1 };
+	int            halvings = 1;
 	AdaptationRule where { "contact" };
 	Real           maxUnknowns = std::numeric_limits<Real>::infinity();
 	bool           merge       = true;

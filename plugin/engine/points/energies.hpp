@@ -17,7 +17,7 @@ struct Energies {
 
 using PointMass = std::function<Real(const MaterialPoint&)>; // [kg]
 
-// With pores that are as full as the density of the material says.
+// Mass of a point with pores that are as full as the density of its material says.
 inline Real massOfFull(const MaterialPoint& point) { return point.material->density * point.state->volume0; }
 
 Energies energiesOf(const vector<MaterialPoint>&, const PointMass& = massOfFull);

@@ -7,7 +7,8 @@
 
 namespace yade {
 
-// Null: no water flows. Gravity tells the density of the water from its weight.
+// Mass with the water that pores have, where the flow is one of whole pressures. Gravity tells the density of the
+// water from its weight.
 PointMass pointMass(const shared_ptr<MpmFlow>&, const Vector3r& gravity);
 
 } // namespace yade
