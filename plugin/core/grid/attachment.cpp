@@ -41,7 +41,6 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& locatio
 	Vec<Dim>                       local = Vec<Dim>::Zero();
 	double                         least = std::numeric_limits<double>::infinity();
 	if (layer == layerOfPosition) layer = grid.parting ? grid.parting->layerAt(location) : 0;
-	int ofNodes = layer;
 	for (int level = grid.refinement ? grid.refinement->largest() : 0; level >= 0; --level) {
 		const Vec<Dim> xi = (location - grid.origin) / grid.size(level);
 		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
@@ -51,11 +50,11 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& locatio
 		if (away >= least) continue;
 		least    = away;
 		local    = xi - cell->first.template cast<double>();
-		attached = Attachment<Dim> { cell->first, level, {}, {} };
-		ofNodes  = cell->second;
+		attached = Attachment<Dim> { cell->first, level, cell->second, {}, {} };
 	}
 	for (int n = 0; attached && n < attached->nodes; ++n)
-		attached->node[n] = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, ofNodes));
+		attached->node[n]
+		        = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, attached->layer));
 	if (attached) attached->weigh(local);
 	return attached;
 }

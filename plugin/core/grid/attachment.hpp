@@ -13,7 +13,7 @@ template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
 	Index<Dim>                cell  = Index<Dim>::Zero(); ///< cell, numbered as if the grid were not periodic, in cells of its level
-	int                       level = 0;
+	int                       level = 0, layer = 0;
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
 
@@ -26,6 +26,9 @@ template <int Dim> struct Attachment {
 				weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
 		}
 	}
+
+	/// Key of the leaf.
+	Key leaf(const Grid<Dim>& grid) const { return Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer); }
 
 	/// Integer coordinates of a node, as if the grid were not periodic, in cells of its level.
 	Index<Dim> index(int n) const
@@ -46,6 +49,13 @@ template <int Dim> struct Attachment {
 		return local;
 	}
 
+	double value(const Eigen::VectorXd& scalars) const
+	{
+		double sum = 0;
+		for (int n = 0; n < nodes; ++n)
+			sum += weight[n] * scalars[node[n]];
+		return sum;
+	}
 	Vec<Dim> displacement(const Eigen::VectorXd& d) const
 	{
 		Vec<Dim> u = Vec<Dim>::Zero();

@@ -3,8 +3,18 @@
 #pragma once
 #include "core/grid/grid.hpp"
 #include <functional>
+#include <limits>
 
 namespace gimpm {
+
+/// A part of a cut by which water passes from the soil to its left, in layer 0, to that to its right.
+template <int Dim> struct LeakyCut {
+	static constexpr double asSoil = std::numeric_limits<double>::infinity(); ///< leakage ahead of a tip, where soil is whole
+
+	Vec<Dim> from, to;
+	int      layer;
+	double   leakage; ///< volume that passes by area and time, over the difference of the pressures [m3/(N s)]
+};
 
 /// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those whose cells the line
 /// cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to the
@@ -13,13 +23,15 @@ namespace gimpm {
 template <int Dim> class Parting {
 public:
 	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its position.
-	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt) : own_(std::move(own)), layerAt_(std::move(layerAt))
+	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::vector<LeakyCut<Dim>> leaks)
+	        : own_(std::move(own)), layerAt_(std::move(layerAt)), leaks_(std::move(leaks))
 	{
 		for (const Key node : own_)
 			if (layers_.empty() || layers_.back() != Grid<Dim>::layer(node)) layers_.push_back(Grid<Dim>::layer(node));
 	}
 
-	int layerAt(const Vec<Dim>& position) const { return layerAt_(position); }
+	int                               layerAt(const Vec<Dim>& position) const { return layerAt_(position); }
+	const std::vector<LeakyCut<Dim>>& leaks() const { return leaks_; }
 
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 
@@ -49,6 +61,7 @@ private:
 
 	std::vector<Key>                    own_;
 	std::function<int(const Vec<Dim>&)> layerAt_;
+	std::vector<LeakyCut<Dim>>          leaks_;
 	std::vector<int>                    layers_;
 };
 

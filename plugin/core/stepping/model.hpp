@@ -93,6 +93,9 @@ template <int Dim> struct Model {
 	std::vector<NodalField<Dim>> fields {};
 	/// Terms of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};
+	/// Pressures of water that flows in the soil (StepContext::water), at the nodes of a step. `field`: theirs;
+	/// null where they stay as they are. Empty: none flows.
+	std::function<Eigen::VectorXd(const CloudBasis<Dim>&, const Eigen::VectorXd* field)> water {};
 	/// Makes fields stay as they are at the moment, for a study of it; empty: there are none but the displacements.
 	std::function<void(Model&)> freeze {};
 	/// Actions of those of the terms that need them.

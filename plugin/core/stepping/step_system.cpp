@@ -78,6 +78,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& c, const Model<Dim>& m, const
 	owned_ = std::make_unique<OwnedParts<Dim>>(*model.processes, basis, faces, *model.division);
 	gimpm::complete(owned_->knownNodes(), map, external);
 	constrainNodes();
+	if (model.water) water_ = model.water(basis, map.isAlone() ? nullptr : &before_[1]);
 	makeTerms();
 	report.nodes              = int(basis.nodes.size());
 	report.dofs               = dofs.count;

@@ -102,7 +102,17 @@ template <int Dim> struct StepSystem {
 	StepContext<Dim> context() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
-		return { cloud, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, owned_->knownNodes(), *model.division };
+		return { cloud,
+			 basis,
+			 model.grid,
+			 stiffnessOf_,
+			 faces,
+			 held.dofs,
+			 held.prescribed,
+			 imbalance_,
+			 owned_->knownNodes(),
+			 *model.division,
+			 model.water ? &water_ : nullptr };
 	}
 
 private:
@@ -111,6 +121,7 @@ private:
 	std::unique_ptr<OwnedParts<Dim>> owned_;
 	/// The fields as the step begins; displacements are those of the step.
 	std::vector<Eigen::VectorXd>   before_;
+	Eigen::VectorXd                water_;                ///< StepContext::water
 	Constraints                    ofDisplacements_;      ///< constraints of the displacements, with other fields
 	std::vector<CoupledTerm<Dim>*> coupled_;              ///< coupled ones of the terms
 	bool                           isStabilised_ = false; ///< the second of the terms is the ghost's

@@ -135,6 +135,16 @@ private:
 	double           cellSize_;
 };
 
+/// Where water passes a cut: through the line if it leaks, and ahead of its tips.
+void addLeaks(const PartingLine& line, const Cut& cut, std::vector<LeakyCut<2>>& leaks)
+{
+	const auto add = [&](const Vec<2>& from, const Vec<2>& to, double leakage) { leaks.push_back({ from, to, line.layer, leakage }); };
+	for (std::size_t i = 0; line.leakage > 0 && i + 1 < line.positions.size(); ++i)
+		add(line.positions[i], line.positions[i + 1], line.leakage);
+	if (line.isTip[0]) add(cut.positions[0], cut.positions[1], LeakyCut<2>::asSoil);
+	if (line.isTip[1]) add(cut.positions[cut.positions.size() - 2], cut.positions.back(), LeakyCut<2>::asSoil);
+}
+
 /// The side of a line of vertices that a position within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond
 /// an end.
 int sideOf(const PartingLine& line, const Vec<2>& position, double reach)
@@ -188,9 +198,10 @@ std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vect
 
 void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid<2>& grid)
 {
-	std::vector<Cut>      cuts;
-	std::vector<Index<2>> taken;
-	std::vector<Key>      own;
+	std::vector<Cut>         cuts;
+	std::vector<Index<2>>    taken;
+	std::vector<Key>         own;
+	std::vector<LeakyCut<2>> leaks;
 	lookBetween(lines, cloud, grid);
 	for (PartingLine* line : lines) {
 		if (int(cuts.size()) == Grid<2>::mostLayer || !line->isBetween) continue;
@@ -201,13 +212,14 @@ void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid
 		for (const Index<2>& node : nodes)
 			own.push_back(Grid<2>::key(node, 0, cut.layer));
 		taken.insert(taken.end(), nodes.begin(), nodes.end());
+		addLeaks(*line, cut, leaks);
 		cuts.push_back(std::move(cut));
 	}
 	grid.parting.reset();
 	cloud.layer.clear();
 	if (cuts.empty()) return;
 	std::sort(own.begin(), own.end());
-	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(cuts), own, grid));
+	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(cuts), own, grid), std::move(leaks));
 	cloud.layer.resize(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p)
 		cloud.layer[p] = grid.parting->layerAt(cloud.position[p]);

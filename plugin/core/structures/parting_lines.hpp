@@ -15,6 +15,8 @@ struct PartingLine {
 	/// The cut goes on beyond its tips, where bonds keep the soil together (StructureForce); else it ends at the
 	/// first line of the grid beyond them.
 	bool isBonded = false;
+	/// Volume of water that passes by area and time, over the difference of the pressures [m3/(N s)].
+	double leakage = 0;
 
 	/// In this step: of the points to its right, where it parts the soil; 0: it does not.
 	int layer = 0;

@@ -72,6 +72,8 @@ struct BeamSide {
 	std::vector<double> normalForce; ///< force of the beam on it [N]
 	std::vector<double> gap;         ///< gap that the beam has left [m]
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
+	/// Pressure of water that flows in it [Pa], which presses the two apart besides; empty: there is none.
+	std::vector<double> water {};
 };
 
 /// Stress between the two sides of the soil ahead of a tip, at one integration point of the bond that keeps them
@@ -80,6 +82,7 @@ struct TipBond {
 	bool   isActive = false; ///< the cut reaches so far
 	double pressure = 0;     ///< normal stress, pressure positive [Pa]
 	double shear    = 0;     ///< on what is to the left of the line, from what is to its right, along it [Pa]
+	double water    = 0;     ///< pressure of water that flows in the soil [Pa]
 };
 
 /// A line of vertices in the plane, each with a position and a turn of its own, that the soil acts on by springs.

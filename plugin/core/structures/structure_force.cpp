@@ -37,7 +37,8 @@ template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, c
 
 template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const StepContext<Dim>& step) : structure_(structure)
 {
-	soil_     = soilAround(step);
+	soil_ = soilAround(step);
+	if (step.water) takeWater(*step.water);
 	obstacle_ = missingSoil(step, soil_);
 	if (obstacle_.empty()) obstacle_ = pulledOut(soil_);
 	if (obstacle_.empty()) system_.emplace(structure, soil_);
@@ -154,6 +155,25 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 			}
 		}
 	}
+}
+
+/// Pressures of the water beside a beam as a step begins: what they change in it springs bear until the next one.
+template <int Dim> void StructureForce<Dim>::takeWater(const Eigen::VectorXd& pressures)
+{
+	if (!structure_.beam) return;
+	Beam&             beam  = *structure_.beam;
+	const std::size_t count = beam.positions.size(), all = structure_.vertices(), bonds = all + count;
+	const auto at = [&](std::size_t position) { return position < attached_.size() && attached_[position] ? attached_[position]->value(pressures) : 0.; };
+	for (const int side : { 0, 1 }) {
+		beam.sides[side].water.assign(count, 0);
+		for (std::size_t v = 0; v < count; ++v) {
+			const bool isParted       = all + v < soil_.size() && soil_[all + v].exists;
+			const bool hasWater       = soil_[v].exists && (isParted || soil_[v].sides == 1 << side);
+			beam.sides[side].water[v] = hasWater ? at(isParted && side == 1 ? all + v : v) : 0;
+		}
+	}
+	for (std::size_t i = 0; i < 2 * bondsOfTip; ++i)
+		beam.bonds[i / bondsOfTip][i % bondsOfTip].water = (at(bonds + 2 * i) + at(bonds + 2 * i + 1)) / 2;
 }
 
 /// The cut is longer than the beam: there its two sides are kept together at integration points, so that it matters
@@ -328,6 +348,7 @@ template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
 	const int             count = system_->soilUnknowns();
 	structure_.work             = -soil.dot((asItBegins().gradient + system_->energyAt(x).gradient).head(count)) / 2;
 	system_->commit(x);
+	if (!state.map().isAlone()) takeWater(state.value(1));
 }
 
 /// Norm of the loads on the structure, and of the reactions at its ends.

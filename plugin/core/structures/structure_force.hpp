@@ -29,6 +29,7 @@ private:
 	void                      lookBesideBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&) const;
 	void                      partAlongBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
 	void                      bondAheadOfTips(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
+	void                      takeWater(const Eigen::VectorXd& pressures);
 	std::string               missingSoil(const StepContext<Dim>&, const std::vector<SoilAtVertex>&) const;
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;

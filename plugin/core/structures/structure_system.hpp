@@ -94,6 +94,7 @@ private:
 	ShellPiece                      shellPiece(std::size_t number) const;
 	Energy<6>                       energyOfPiece(std::size_t number, const Eigen::Matrix<double, 6, 1>& u) const;
 	void                            addLoads(const Eigen::VectorXd& x, EnergySum&) const;
+	void                            addWater(const Eigen::VectorXd& x, EnergySum&) const;
 	void                            commitBar(Reinforcement<Dim>&, int first, const Eigen::VectorXd& x);
 	void                            commitPiece(std::size_t number, const Eigen::Matrix<double, 6, 1>& u);
 	void                            commitBeam(const Eigen::VectorXd& x);
@@ -115,7 +116,8 @@ private:
 	Structure<Dim>&      structure_;
 	std::vector<Station> stations_;
 	std::vector<Spring>  springs_;
-	std::vector<int>     bondSoil_; ///< first unknowns of the soil to the left and right, by bond
+	std::vector<int>     bondSoil_;  ///< first unknowns of the soil to the left and right, by bond
+	std::vector<double>  bondWater_; ///< forces of water between them [N], by bond
 	int                  soilUnknowns_ = 0, unknowns_ = 0;
 };
 

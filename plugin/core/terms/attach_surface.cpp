@@ -19,13 +19,17 @@ template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string
 	return text.str();
 }
 
-template <int Dim> AttachedPositions<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name)
+template <int Dim>
+AttachedPositions<Dim> attachTo(
+        int layer, const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name, const std::vector<Vec<Dim>>& beside = {})
 {
 	AttachedPositions<Dim> found;
 	std::vector<double>    reach;
 	found.layer = layer;
-	for (const Vec<Dim>& position : positions) {
-		const auto attached = attach(position, step.basis, step.grid, layer);
+	for (std::size_t i = 0; i < positions.size(); ++i) {
+		const Vec<Dim>& position = positions[i];
+		const bool      isBeside = step.grid.parting && layer == layerOfPosition && !beside.empty();
+		const auto      attached = attach(position, step.basis, step.grid, isBeside ? step.grid.parting->layerAt(beside[i]) : layer);
 		reach.push_back(domainTolerance * step.grid.size(attached ? attached->level : 0));
 		found.positions.push_back(attached.value_or(Attachment<Dim>()));
 		if (attached) continue;
@@ -42,9 +46,10 @@ template <int Dim> AttachedPositions<Dim> attachTo(int layer, const std::vector<
 } // namespace
 
 template <int Dim>
-AttachedPositions<Dim> attachPositions(const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name, int layer)
+AttachedPositions<Dim> attachPositions(
+        const std::vector<Vec<Dim>>& positions, const StepContext<Dim>& step, const std::string& name, int layer, const std::vector<Vec<Dim>>& beside)
 {
-	if (step.grid.parting || layer != layerOfPosition) return attachTo(layer, positions, step, name);
+	if (step.grid.parting || layer != layerOfPosition) return attachTo(layer, positions, step, name, beside);
 	const auto& layers = step.cloud.layer;
 	// The same passes in all processes.
 	const int              last  = int(step.division.largest(layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end())));
@@ -61,7 +66,27 @@ AttachedPositions<Dim> attachPositions(const std::vector<Vec<Dim>>& positions, c
 	return found;
 }
 
-template AttachedPositions<2> attachPositions(const std::vector<Vec<2>>&, const StepContext<2>&, const std::string&, int);
-template AttachedPositions<3> attachPositions(const std::vector<Vec<3>>&, const StepContext<3>&, const std::string&, int);
+template <int Dim> std::vector<Vec<Dim>> besideVertices(const Surface<Dim>& surface)
+{
+	std::vector<Vec<Dim>> beside(surface.vertices.size(), Vec<Dim>::Zero());
+	std::vector<int>      pieces(beside.size(), 0);
+	for (const auto& piece : surface.pieces)
+		for (const int v : piece) {
+			for (const int other : piece)
+				beside[v] += surface.vertices[other] / Dim;
+			++pieces[v];
+		}
+	for (std::size_t v = 0; v < beside.size(); ++v)
+		beside[v] = pieces[v] > 0 ? Vec<Dim>(beside[v] / pieces[v]) : surface.vertices[v];
+	return beside;
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template AttachedPositions<Dim> attachPositions(                                                                                                       \
+	        const std::vector<Vec<Dim>>&, const StepContext<Dim>&, const std::string&, int, const std::vector<Vec<Dim>>&);                                 \
+	template std::vector<Vec<Dim>> besideVertices(const Surface<Dim>&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
 
 } // namespace gimpm

@@ -119,6 +119,9 @@ template <int Dim> struct StepContext {
 	                  imbalance;  ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 	const OwnedNodes& ownedNodes; ///< the nodes around which this process knows all points; what is summed over points is completed by it
 	const Division&   division;   ///< points among processes, of which this one has its own and copies
+	/// Pressures of water that flows in the soil, by which it presses on what touches it, at nodes as the step
+	/// begins [Pa]; null: none flows.
+	const Eigen::VectorXd* water = nullptr;
 };
 
 /// Makes a term for a step.

@@ -549,7 +549,6 @@ refusals = {
         "stack('low-up', 'up-top', cellSize=0.5); O.step()": [],
         "stack('low-top', 'up-top'); O.step()": [],
         "two(grid=dict(period=(2, 0, 0))); O.step()": ['MpmBodyContact', 'period'],
-        "two(flow=MpmFlow()); O.step()": ['MpmBodyContact', 'flow'],
         "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface', 'MpmBoundary.body'],
         "two(); O.engines[0].contacts = [MpmBodyContact(between=('low', 'up'), friction=0), MpmBodyContact(between=('up', 'low'), friction=0)]; O.step()": ['contacts[0]', 'contacts[1]', 'one is admitted'],
         "two(); O.bodies.erase(0); [O.bodies.erase(b.id) for b in list(O.bodies) if b.state.body == 1]; O.step()": ["'up'", 'no points'],

@@ -260,12 +260,13 @@ gone = [before, result(O.engines[0])]
 solver = ground(level=3, other=3)
 O.run(2, wait=True)
 same = result(solver)
-solver = ground(level=0)
-solver.water, solver.flow = [MpmWater(level=1)], MpmFlow()
-flow = [refused(O.run, 1, wait=True)]
-solver = ground(level=0)
-solver.water, solver.flow, solver.loads[0].permittivity = [MpmWater(level=1)], MpmFlow(), inf
-flow.append(refused(O.run, 1, wait=True))
+flow = []
+for permittivity in 0, inf:
+	solver = ground(level=0)
+	solver.water, solver.flow = [MpmWater(level=1)], MpmFlow()
+	solver.loads = [MpmBeam(line=[(.9, 4), (.9, 0)], axialStiffness=1e10, bendingStiffness=1e9, fixFoot='xyr'), *solver.loads]
+	for wall in solver.loads: wall.permittivity = permittivity
+	flow.append(refused(O.run, 1, wait=True))
 print(json.dumps([alone, differ, same, gone, flow]))
 ''').result
 	hand = 1e4 * 3**3 / 6
@@ -273,4 +274,4 @@ print(json.dumps([alone, differ, same, gone, flow]))
 	assert differ[0] == pytest.approx(3e4, rel=.01) and differ[1] == pytest.approx(hand, rel=.1)
 	assert same[0] < 100 and same[1] < .01 * hand
 	assert gone[1] == pytest.approx(gone[0], rel=1e-9)
-	assert 'loads[0].permittivity = 0' in flow[0] and 'mpm.seepage' in flow[0] and flow[1] == 'nothing was refused'
+	assert 'loads[1].permittivity = 0' in flow[0] and 'another beam within three cells' in flow[0] and flow[1] == 'nothing was refused'

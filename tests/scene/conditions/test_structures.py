@@ -460,7 +460,7 @@ oneBody = {
         'dict(pressureRelaxation=True, fBar=True)': 'beside pressureRelaxation',
         "dict(newton=MpmNewton(linearSolver='amg'))": "beside MpmNewton.linearSolver = 'amg'",
         'dict(contacts=[MpmContact(friction=0)])': 'beside contacts[0]',
-        'dict(flow=MpmFlow(), conductivity=1e-4, porosity=.4)': 'beside flow',
+        'dict(flow=MpmFlow(), conductivity=1e-4, porosity=.4)': '',
         'dict(more=[MpmBoundary(surface=[(4, 2), (4, 0)], fix="n")])': 'beside boundaries[3].surface',
         'dict(engine=MpmDynamicEngine, other=[MpmFreeField(surface=[(0, 2), (0, 0)])])': 'beside loads[1]',
         'dict(other=[MpmBeam(line=[(2.5, 2), (2.5, 1)], axialStiffness=1e9, bendingStiffness=1e6)])': 'beside another one within three cells',
@@ -474,7 +474,6 @@ import sys
 from yade.mpm.library import engine as library
 def said(line=((2, 2), (2, 1)), other=(), more=(), conductivity=None, porosity=None, **settings):
 	beam = MpmBeam(line=list(line), axialStiffness=1e9, bendingStiffness=1e6, adhesion=0, fixFoot='xyr')
-	if 'flow' in settings: beam.permittivity = inf
 	ground(beam, *other, **{**dict(poisson=.3), **settings})
 	if conductivity: O.materials[0].conductivity, O.materials[0].porosity = conductivity, porosity
 	solver.boundaries = [*solver.boundaries, *more]

@@ -168,6 +168,8 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 			for (const int b : nodes)
 				if (a <= b) K.mark({ 0, a }, { 0, b });
 	}
+	for (const auto& passage : passages_)
+		passage.mark(K);
 }
 
 template <int Dim>
@@ -224,6 +226,10 @@ void BodyContact<Dim>::add(
 template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
 	add(state.displacements(), system_.weight, sum.force[0], &sum.absoluteContributions[0], sum.couplings, jacobianKind());
+	if (passages_.empty()) return std::nullopt;
+	const Eigen::VectorXd P = state.value(Passage<Dim>::field);
+	for (const auto& passage : passages_)
+		passage.add(P, sum);
 	return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include "core/terms/contact/facets.hpp"
 #include "core/terms/contact_energy.hpp"
 #include "core/terms/coupled_term.hpp"
+#include "core/terms/passage.hpp"
 #include <functional>
 
 namespace gimpm {
@@ -52,6 +53,7 @@ template <int Dim> struct BodyMeeting {
 	double frictionCoefficient = 0;                                       ///< [-]
 	double adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double stiffness           = 10;
+	double leakage             = 0; ///< water that passes where they touch: volume by area and time, over the difference of the pressures [m3/(N s)]
 
 	/// Stress on each piece of the slave's surface at the end of the last accepted step [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
@@ -70,7 +72,8 @@ template <int Dim> class BodyContact;
 template <int Dim> struct BodyContacts : ContactEnergy {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
-	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
+	double                        duration = 0;  ///< duration of the step [s]
+	const BodyContact<Dim>*       acting   = {}; ///< the term of the step that is being made
 };
 
 /// Positions on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
@@ -79,7 +82,7 @@ template <int Dim> struct BodyContacts : ContactEnergy {
 template <int Dim> class BodyContact : public CoupledTerm<Dim> {
 public:
 	/// The bodies and meetings are written in commit().
-	BodyContact(BodyContacts<Dim>&, const StepContext<Dim>&);
+	BodyContact(BodyContacts<Dim>&, const StepContext<Dim>&, const State& begins);
 
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
@@ -146,6 +149,7 @@ private:
 	void                makeLaws(const StepContext<Dim>&);
 	void                findFirst(ContactPoint&);
 	void                keepApart(ContactPoint* begin, ContactPoint* end);
+	void                takeWater(const Eigen::VectorXd& pressures, bool flows);
 	void                begin(ContactPoint&);
 	int                 wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
 	Positions           positionsAt(const Eigen::VectorXd& d) const;
@@ -180,6 +184,7 @@ private:
 	std::vector<Facets<Dim>>  facets_; // facets of the bodies
 	Positions                 start_;
 	std::vector<ContactPoint> contactPoints_;
+	std::vector<Passage<Dim>> passages_;
 	std::string               obstacle_;
 	mutable ContactState      state_; // the last one
 };

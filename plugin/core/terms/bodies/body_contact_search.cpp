@@ -41,7 +41,7 @@ template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& 
 } // namespace
 
 template <int Dim>
-BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>& step)
+BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>& step, const State& begins)
         : system_(system)
         , cellSize_(step.grid.cellSize)
         , tolerance_(contactTolerance(cellSize_))
@@ -66,8 +66,21 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 		});
 		keepApart(&*first, &*first + (last - first));
 	}
+	if (step.water) takeWater(*step.water, !begins.map().isAlone());
 	for (ContactPoint& contactPoint : contactPoints_)
 		begin(contactPoint);
+}
+
+/// Water presses on both bodies where they touch, and, unless its pressures stay as they are, passes from one to the
+/// other there.
+template <int Dim> void BodyContact<Dim>::takeWater(const Eigen::VectorXd& pressures, bool flows)
+{
+	for (ContactPoint& point : contactPoints_) {
+		if (!point.first || !(point.normalForce > 0 || point.closed <= tolerance_)) continue;
+		point.law.water      = point.area * (point.at.value(pressures) + point.first->foot.value(pressures)) / 2;
+		const double leakage = meetingOf(point).leakage;
+		if (flows && leakage > 0) passages_.push_back({ { point.at, point.first->foot }, system_.duration * point.area * leakage });
+	}
 }
 
 template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const StepContext<Dim>& step)
@@ -194,7 +207,7 @@ template <int Dim> void BodyContact<Dim>::begin(ContactPoint& contactPoint)
 		                                                   : std::min(0., contactPoint.closed);
 }
 
-template BodyContact<2>::BodyContact(BodyContacts<2>&, const StepContext<2>&);
-template BodyContact<3>::BodyContact(BodyContacts<3>&, const StepContext<3>&);
+template BodyContact<2>::BodyContact(BodyContacts<2>&, const StepContext<2>&, const State&);
+template BodyContact<3>::BodyContact(BodyContacts<3>&, const StepContext<3>&, const State&);
 
 } // namespace gimpm

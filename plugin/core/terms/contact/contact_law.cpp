@@ -14,7 +14,7 @@ template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, c
 	t.normalForce = law.normalForce(gap);
 	if (isPressed) t.tangent = -law.normalStiffness * n * n.transpose() + t.normalForce * dn;
 	if (law.isSmooth()) return t;
-	if (law.frictionLimit(t.normalForce) == 0) {
+	if (std::max(t.normalForce, law.around) == 0) {
 		t.tangent -= law.tangentialStiffness * P;
 		return t;
 	}

@@ -17,10 +17,12 @@ template <int Dim> struct ContactLaw {
 	/// Normal force of the neighbouring contact points and this one, which friction refers to at least [N]; the gap
 	/// up to which it does [m].
 	double around = 0, reach = 0;
+	double water = 0; ///< part of the normal force that is the pressure of pore water, of which friction knows nothing [N]
 
 	bool   isSmooth() const { return frictionCoefficient == 0 || cap == 0; }
 	double normalForce(double gap) const { return std::max(0., -normalStiffness * gap); }
-	double frictionLimit(double normalForce) const { return std::min(frictionCoefficient * std::max(normalForce, around), cap); }
+	double effective(double normalForce) const { return std::max(0., std::max(normalForce, around) - water); }
+	double frictionLimit(double normalForce) const { return std::min(frictionCoefficient * effective(normalForce), cap); }
 
 	/// Energy in the springs on gap and slip [J].
 	double stored(double normalForce, double tangentialForce) const
@@ -51,7 +53,7 @@ Friction<Dim> returnMapping(
 	const Vec<Dim> along = trial / size;
 	if (tangent) {
 		*tangent += limit / size * (*dTrial - along * (along.transpose() * *dTrial));
-		const bool growsWithPressure = normalForce >= law.around && law.frictionCoefficient * normalForce < law.cap;
+		const bool growsWithPressure = normalForce >= law.around && 0 < limit && limit < law.cap;
 		if (dGap && growsWithPressure) *tangent -= law.frictionCoefficient * law.normalStiffness * along * *dGap;
 	}
 	return { limit * along, true };

@@ -207,6 +207,7 @@ private:
 		made.young           = sight->young;
 		const double penalty = body_.stiffness * made.young * made.area / h_;
 		made.law             = { penalty, penalty / slipSoftness, body_.frictionCoefficient, body_.adhesion * made.area };
+		if (step_.water) made.law.water = made.area * made.attached.value(*step_.water);
 		if (record) recall(made, *record, sight->gap);
 		if (touched && record->gap < 0) moveOut(made, *record, soil);
 		to_.points.push_back(made);

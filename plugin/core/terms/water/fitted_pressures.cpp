@@ -76,13 +76,14 @@ Eigen::VectorXd fittedPressures(const CloudBasis<Dim>& basis, const PointCloud<D
 	condense(basis, around);
 	Eigen::VectorXd fitted(Eigen::Index(basis.nodes.size()));
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
-		const int level = Grid<Dim>::level(basis.nodes[n]);
+		const int level = Grid<Dim>::level(basis.nodes[n]), layer = Grid<Dim>::layer(basis.nodes[n]);
 		auto      value = around[n].atNode(1 << level);
 		if (!value) {
 			Moments<Dim> more;
 			for (int number = 0; number < cellsAround<Dim>; ++number) {
 				const Index<Dim> offset = offsetAround<Dim>(number) * (1 << level);
-				const int        other = gimpm::find(basis.nodes, Grid<Dim>::key(grid.first(Grid<Dim>::index(basis.nodes[n]) + offset), level));
+				const Index<Dim> there  = grid.first(Grid<Dim>::index(basis.nodes[n]) + offset);
+				const int        other  = gimpm::find(basis.nodes, Grid<Dim>::key(there, level, layer));
 				if (other >= 0) more.addMoved(around[other], offset.template cast<double>());
 			}
 			value = more.atNode(1 << level).value_or(around[n].mean());

@@ -65,7 +65,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 		for (Eigen::Index n = 0; n < nodes; ++n) {
 			const auto known = water.atNodes.find(basis.nodes[n]);
 			if (known != water.atNodes.end()) sum[n] = known->second;
-			else if (!water.whole && !grid.refinement)
+			else if (!water.whole && !grid.refinement && !grid.parting)
 				sum[n] = volume[n] > 0 ? sum[n] / volume[n] : 0;
 			else {
 				if (fitted.size() == 0) fitted = fittedPressures(basis, cloud, grid, pressure);
@@ -107,6 +107,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 	weighCells(modulusOf, step);
 	findNear(step);
 	attachDrains(step);
+	attachPassages(step);
 	if (obstacle_.empty()) obstacle_ = enclosure(step);
 }
 
@@ -133,13 +134,13 @@ template <int Dim> bool Flow<Dim>::hasDirections() const
 template <int Dim> void Flow<Dim>::addCell(Key key, double weight, const StepContext<Dim>& step)
 {
 	Cell       cell { {}, weight };
-	const int  level  = Grid<Dim>::level(key);
+	const int  level = Grid<Dim>::level(key), layer = Grid<Dim>::layer(key);
 	const auto lowest = Grid<Dim>::index(key);
 	for (int s = 0; s < corners; ++s) {
 		Index<Dim> node = lowest;
 		for (int a = 0; a < Dim; ++a)
 			node[a] += (s >> a & 1) << level;
-		cell.node[s] = gimpm::find(step.basis.nodes, Grid<Dim>::key(step.grid.first(node), level));
+		cell.node[s] = gimpm::find(step.basis.nodes, Grid<Dim>::key(step.grid.first(node), level, layer));
 	}
 	if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
 }
@@ -228,6 +229,8 @@ template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 		for (const int a : outlet.at.node)
 			for (const int b : outlet.at.node)
 				K.mark({ field, a }, { field, b });
+	for (const auto& passage : passages_)
+		passage.mark(K);
 }
 
 /// Kept from iteration to iteration, until the matrix is marked anew.
@@ -272,6 +275,8 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 	if (failed != none) return PointFailure { failed };
 	addPenalties(state.growth(field), sum, blocks);
 	addDrains(P, sum);
+	for (const auto& passage : passages_)
+		passage.add(P, sum);
 	return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/near_nodes.hpp"
+#include "core/terms/passage.hpp"
 #include "core/terms/water/curves_at_nodes.hpp"
 #include "core/terms/water/flow_point.hpp"
 #include "core/terms/water/soil_water.hpp"
@@ -96,6 +97,7 @@ private:
 	void        findNear(const StepContext<Dim>&);
 	void        attachDrains(const StepContext<Dim>&);
 	std::string attachDrain(int number, const StepContext<Dim>&);
+	void        attachPassages(const StepContext<Dim>&);
 	std::string enclosure(const StepContext<Dim>&) const;
 
 	const FlowBlocks<Dim>& blocksIn(Couplings&) const;
@@ -126,6 +128,7 @@ private:
 	std::vector<Cell>            cells_;
 	Eigen::VectorXd              filled_; ///< volume that is filled around each node, if there is rain
 	std::vector<Outlet>          outlets_;
+	std::vector<Passage<Dim>>    passages_; ///< through cuts in the body
 	std::vector<Attachment<Dim>> vertices_; ///< vertices of the drains, one after the other
 	std::string                  obstacle_;
 

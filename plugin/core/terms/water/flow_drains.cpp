@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Drains: surfaces where water leaves a body.
+// Drains: surfaces where water leaves a body; and cuts in it that water passes.
 #include "core/terms/attach_surface.hpp"
 #include "core/terms/water/flow.hpp"
 #include <algorithm>
@@ -7,11 +7,11 @@
 namespace gimpm {
 namespace {
 
-/// A position of a drain, the area that it stands for, and a vector along the normal.
+/// A position of a drain, the area that it stands for, a vector along the normal, and the middle of its piece.
 template <int Dim> struct DrainPoint {
 	Vec<Dim> at;
 	double   area;
-	Vec<Dim> normal;
+	Vec<Dim> normal, middle;
 };
 
 /// Quadrature of segments: exact for products of two functions of the grid, wherever they cut the cells.
@@ -28,7 +28,8 @@ std::vector<DrainPoint<2>> quadratureOf(const Surface<2>& surface, const Grid<2>
 			for (const auto& [position, weight] : gauss) {
 				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + position) / 2;
 				const Vec<2> x    = from + part * way;
-				positions.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid), { way[1], -way[0] } });
+				positions.push_back(
+				        { x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid), { way[1], -way[0] }, from + way / 2 });
 			}
 	}
 	return positions;
@@ -39,7 +40,7 @@ std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>
 {
 	std::vector<DrainPoint<3>> positions;
 	for (const Vec<3>& corner : surface.vertices)
-		positions.push_back({ corner, 0, Vec<3>::Zero() });
+		positions.push_back({ corner, 0, Vec<3>::Zero(), corner });
 	for (const auto& piece : surface.pieces)
 		for (const int v : piece) {
 			const Vec<3> normal = surface.normal(piece, surface.vertices);
@@ -95,20 +96,20 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 {
 	const Drain<Dim>& drain   = water_.drains[number];
 	const auto&       surface = drain.surface;
-	const auto        corners = attachPositions(surface.vertices, step, drain.name);
+	const auto        corners = attachPositions(surface.vertices, step, drain.name, layerOfPosition, besideVertices(surface));
 	if (!corners.obstacle.empty()) return corners.obstacle;
 	vertices_.insert(vertices_.end(), corners.positions.begin(), corners.positions.end());
 	const auto            positions = quadratureOf(surface, step.grid);
-	std::vector<Vec<Dim>> middles;
+	std::vector<Vec<Dim>> all, beside;
 	for (const auto& position : positions)
-		middles.push_back(position.at);
-	const auto within = Dim == 3 ? corners : attachPositions(middles, step, drain.name);
+		all.push_back(position.at), beside.push_back(position.middle);
+	const auto within = Dim == 3 ? corners : attachPositions(all, step, drain.name, layerOfPosition, beside);
 	if (!within.obstacle.empty()) return within.obstacle;
 	for (std::size_t i = 0; i < positions.size(); ++i) {
-		const auto& [x, area, normal] = positions[i];
-		const auto&  at               = within.positions[i];
-		const double h                = step.grid.size(at.level);
-		const int    cell  = gimpm::find(step.basis.populatedLeaves(), Grid<Dim>::key(step.grid.first(at.index(0) * (1 << at.level)), at.level));
+		const auto& [x, area, normal, middle] = positions[i];
+		const auto&  at                       = within.positions[i];
+		const double h                        = step.grid.size(at.level);
+		const int    cell                     = gimpm::find(step.basis.populatedLeaves(), at.leaf(step.grid));
 		const double kappa = cell < 0 ? 0 : conductivityAlong(cell, normal.normalized()), passes = water_.duration * area;
 		const double conductance = passes * drain.conductance * kappa / h;
 		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
@@ -122,6 +123,26 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 		outlets_.back().felt = isRain ? weightsByVolume(at, filled_, std::pow(h, Dim) * aroundAxis(x[0], step.grid)) : at.weight;
 	}
 	return "";
+}
+
+template <int Dim> void Flow<Dim>::attachPassages(const StepContext<Dim>& step)
+{
+	if constexpr (Dim == 2) {
+		if (!step.grid.parting) return;
+		for (const LeakyCut<2>& cut : step.grid.parting->leaks()) {
+			Surface<2> line;
+			line.vertices = { cut.from, cut.to }, line.pieces = { { 0, 1 } };
+			for (const auto& [x, area, normal, middle] : quadratureOf(line, step.grid)) {
+				const auto left = attach<2>(x, step.basis, step.grid, 0), right = attach<2>(x, step.basis, step.grid, cut.layer);
+				if (!left || !right || left->node == right->node) continue;
+				const int    cell    = gimpm::find(step.basis.populatedLeaves(), left->leaf(step.grid));
+				const double leakage = cut.leakage == LeakyCut<2>::asSoil
+				        ? conductanceOfSoil * conductivityAlong(cell, normal.normalized()) / step.grid.size(left->level)
+				        : cut.leakage;
+				passages_.push_back({ { *left, *right }, water_.duration * area * leakage });
+			}
+		}
+	}
 }
 
 /// A pressure that is the same everywhere moves nothing where all sides are held: it is unknown unless there is a way
@@ -208,6 +229,7 @@ template <int Dim> void Flow<Dim>::moveDrains(const Eigen::VectorXd& d, const Ei
 	template void        Flow<Dim>::attachDrains(const StepContext<Dim>&);                                                                                 \
 	template std::string Flow<Dim>::enclosure(const StepContext<Dim>&) const;                                                                              \
 	template double      Flow<Dim>::outflow(const Outlet&, double) const;                                                                                  \
+	template void        Flow<Dim>::attachPassages(const StepContext<Dim>&);                                                                               \
 	template void        Flow<Dim>::addDrains(const Eigen::VectorXd&, const FieldSum<Dim>&) const;                                                         \
 	template void        Flow<Dim>::moveDrains(const Eigen::VectorXd&, const Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

@@ -9,11 +9,12 @@ namespace yade {
 class MpmBodyContact : public Exposed<MpmBodyContact, MpmCondition> {
 public:
 	vector<string>   between;
-	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real             adhesion  = std::numeric_limits<Real>::infinity();
-	Real             stiffness = 10;
-	Vector3r         force     = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	Vector3r         moment    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Real             friction     = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real             adhesion     = std::numeric_limits<Real>::infinity();
+	Real             stiffness    = 10;
+	Real             permittivity = std::numeric_limits<Real>::infinity();
+	Vector3r         force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r         moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	int              touching = 0, slipping = 0;
 	int              slave = -1;
 	vector<Real>     pressures;
@@ -40,6 +41,9 @@ public:
 		v("stiffness", &MpmBodyContact::stiffness, 0,
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and the smaller one of Young's moduli E of the two.",
 		  positive);
+		v("permittivity", &MpmBodyContact::permittivity, 0,
+		  "Permittivity for water of MpmFlow where they touch: conductivity over thickness [1/s] >= 0; inf, the default: it passes as in soil; 0: it does not pass.",
+		  admitting("a number >= 0 [1/s], or inf", [](Real value) { return value >= 0; }));
 		v("force", &MpmBodyContact::force, readonly,
 		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");

@@ -5,6 +5,7 @@
 #include "core/terms/inertia/motion.hpp"
 #include "engine/conditions/bodies/bodies_past.hpp"
 #include "engine/conditions/bodies/layers.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include <algorithm>
 #include <set>
 #include <unordered_map>
@@ -151,6 +152,20 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	return meeting;
 }
 
+// Of water that passes as in soil, by what conducts least in the two bodies.
+template <int Dim> Real MeetingBodies<Dim>::leakageOf(const MpmBodyContact& contact, const Surroundings<Dim>& around, const gimpm::Division& division) const
+{
+	const auto flow = MpmFlow::of(analysis);
+	if (!flow) return 0;
+	if (std::isfinite(contact.permittivity)) return contact.permittivity / flow->unitWeight;
+	Real least = std::numeric_limits<Real>::infinity();
+	for (const MaterialPoint& point : around.points)
+		for (const string& name : contact.between)
+			if (point.state->body == grid.bodyNamed(name)) least = std::min(least, point.material->conductivity.horizontal);
+	least = -division.largest(-least);
+	return gimpm::conductanceOfSoil * least / grid.smallestCell() / flow->unitWeight;
+}
+
 template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	requireNoneBetween(around.points, model);
@@ -160,9 +175,11 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 	for (const auto& contact : given) {
 		contact->slave = slaveOf(*contact, around, model);
 		system->meetings.push_back(coreMeeting(*contact));
+		system->meetings.back().leakage = leakageOf(*contact, around, *model.division);
 	}
-	model.coupledTerms.push_back(
-	        [known = system](const gimpm::StepContext<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::BodyContact<Dim>>(*known, step); });
+	model.coupledTerms.push_back([known = system](const gimpm::StepContext<Dim>& step, const gimpm::State& begin) {
+		return std::make_unique<gimpm::BodyContact<Dim>>(*known, step, begin);
+	});
 }
 
 template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
@@ -173,7 +190,7 @@ template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motio
 
 template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&)
 {
-	system->kind = step.kind, system->energy = step.energy;
+	system->kind = step.kind, system->energy = step.energy, system->duration = step.to - step.from;
 }
 
 template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const { return workOf(*system); }

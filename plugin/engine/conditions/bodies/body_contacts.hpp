@@ -24,6 +24,7 @@ public:
 private:
 	gimpm::MeetingBody<Dim>       coreBody(int number) const;
 	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&) const;
+	Real                          leakageOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Division&) const;
 	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
 	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
 	void                          requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;

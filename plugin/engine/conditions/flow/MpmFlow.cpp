@@ -20,6 +20,13 @@ void MpmFlow::requireAdmissible() const
 	}
 }
 
+shared_ptr<MpmFlow> MpmFlow::of(const Analysis& analysis)
+{
+	for (const Listed& listed : analysis.conditions())
+		if (auto flow = boost::dynamic_pointer_cast<MpmFlow>(listed.condition)) return flow;
+	return nullptr;
+}
+
 void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 {
 	string what;

@@ -64,6 +64,9 @@ public:
 		v("lastDuration", &MpmFlow::lastDuration, hidden, "", AnyValue());
 	}
 
+	// That of an analysis; null: none flows.
+	static shared_ptr<MpmFlow> of(const Analysis&);
+
 	// The attributes must go together, too.
 	void requireAdmissible() const override;
 
@@ -71,13 +74,11 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	Real   end(const Analysis&) const override;
-	bool   goesOn() const override { return true; }
-	bool   countsSeconds(const Scene&) const override { return true; }
-	void   requireFitting(const Analysis&, const string& name) const override;
-	string needsUntiedNodes(const string&) const override { return "flow"; }
-	string needsOneBody(const string&) const override { return "flow"; }
-	void   tell(Rows&, const Analysis&, const Listed&) const override;
+	Real end(const Analysis&) const override;
+	bool goesOn() const override { return true; }
+	bool countsSeconds(const Scene&) const override { return true; }
+	void requireFitting(const Analysis&, const string& name) const override;
+	void tell(Rows&, const Analysis&, const Listed&) const override;
 
 	std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
 };

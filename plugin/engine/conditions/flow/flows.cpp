@@ -123,11 +123,26 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step, begin);
 	});
+	model.water  = [this](const gimpm::CloudBasis<Dim>& basis, const Eigen::VectorXd* field) { return pressing(basis, field); };
 	model.freeze = [this, field = model.fields.size() - 1, term = model.coupledTerms.size() - 1](gimpm::Model<Dim>& at) {
 		at.fields.erase(at.fields.begin() + field);
 		at.coupledTerms.erase(at.coupledTerms.begin() + term);
 		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return frozen(step); });
 	};
+}
+
+// Suction pulls at nothing beside the soil: air gets there.
+template <int Dim> Eigen::VectorXd Flows<Dim>::pressing(const gimpm::CloudBasis<Dim>& basis, const Eigen::VectorXd* field) const
+{
+	Eigen::VectorXd pressures;
+	if (field) pressures = *field;
+	else {
+		pressures = Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size()));
+		for (size_t n = 0; n < basis.nodes.size(); ++n)
+			if (const auto known = water.atNodes.find(basis.nodes[n]); known != water.atNodes.end()) pressures[n] = known->second;
+		basis.affineConstraints.template distribute<1>(pressures);
+	}
+	return water.whole ? pressures.cwiseMax(0).eval() : pressures;
 }
 
 // Takes the own points of each process where they are divided: the copies of others may be of materials that are not

@@ -20,6 +20,7 @@ public:
 	std::map<string, string> warnings() const override;
 
 private:
+	Eigen::VectorXd                   pressing(const gimpm::CloudBasis<Dim>&, const Eigen::VectorXd* field) const;
 	std::unique_ptr<gimpm::Term<Dim>> frozen(const gimpm::StepContext<Dim>&) const;
 	void                              beginWhole(const Surroundings<Dim>&);
 	const gimpm::Retention*           curveOf(const MaterialPoint&);

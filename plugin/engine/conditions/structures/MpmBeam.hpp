@@ -27,7 +27,8 @@ public:
 	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
 	// Results, which are also the state from which the next step goes on
 	vector<Vector3r> vertices;
-	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures, waterPressures;
+	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures, waterPressures,
+	        leftWaterPressures, rightWaterPressures;
 	vector<Real>     lengths, radii, slopes, elongations, bends, gaps, normals, shears, stuck;
 	vector<Vector3r> bonds; // state by integration point ahead of the head and the foot: whether it is active, pressure and shear stress [Pa]
 
@@ -76,7 +77,7 @@ public:
 		v("stiffness", &B::stiffness, 0,
 		  "Stiffness of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
 		v("permittivity", &B::permittivity, 0,
-		  "Permittivity for water that crosses the beam: conductivity over thickness [1/s] >= 0, for mpm.seepage. 0, the default: tight; inf: water passes as if there were no beam.",
+		  "Permittivity for water that crosses the beam: conductivity over thickness [1/s] >= 0. 0, the default: tight; inf: water passes as if there were no beam.",
 		  admitting("a number >= 0 [1/s], or inf", isNonNegativeOrInfinite));
 		v("anchors", &B::anchors, 0,
 		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
@@ -100,6 +101,9 @@ public:
 		v("waterPressures", &B::waterPressures, readonly,
 		  "Pressure of the water (MpmWater) to the left of the line less that to its right [Pa], at each vertex: it presses on the beam itself.",
 		  AnyValue());
+		v("leftWaterPressures", &B::leftWaterPressures, readonly,
+		  "Pressure of the water of MpmFlow to the left of the line [Pa], at each vertex; without *total* in excess.", AnyValue());
+		v("rightWaterPressures", &B::rightWaterPressures, readonly, "The same to the right of the line [Pa].", AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
 		v("radii", &B::radii, hidden, "", AnyValue());
 		v("slopes", &B::slopes, hidden, "", AnyValue());

@@ -3,6 +3,7 @@
 #include "core/base/sentence.hpp"
 #include "core/grid/surface.hpp"
 #include "core/structures/parting_lines.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/structures/parting.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
@@ -96,6 +97,7 @@ namespace {
 		for (const auto& tip : beam.bonds)
 			for (const gimpm::TipBond& bond : tip)
 				to.bonds.push_back(Vector3r(bond.isActive, bond.pressure, bond.shear));
+		to.leftWaterPressures = beam.sides[0].water, to.rightWaterPressures = beam.sides[1].water;
 		to.gaps.clear(), to.normals.clear(), to.shears.clear();
 		for (const auto& side : beam.sides) {
 			to.normals.insert(to.normals.end(), side.normalForce.begin(), side.normalForce.end());
@@ -144,8 +146,7 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
 	inItsWay       = cannotPart(around.analysis);
 	processesCount = model.processes->size();
-	for (const Listed& listed : around.analysis.conditions())
-		waterFlows = waterFlows || string(listed.list) == "flow";
+	flow           = MpmFlow::of(around.analysis);
 	for (const Listed& listed : group) {
 		const auto  from = boost::static_pointer_cast<MpmBeam>(listed.condition);
 		const auto& down = around.analysis.gravity;
@@ -160,6 +161,7 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 			        " as the beam comes in, which has its lengths without stress then and would not contract. Give it a curve that begins at 0 then."));
 		structures.emplace_back();
 		structures.back().beam = coreBeam(*from, listed.name(), model.grid);
+		if (flow) structures.back().beam->leakage = from->permittivity / flow->unitWeight;
 		for (size_t i = 0; i < from->anchors.size(); ++i) {
 			const string name = listed.name() + ".anchors[" + std::to_string(i) + "]";
 			structures.back().bars.push_back(coreAnchor(*from->anchors[i], name, *structures.back().beam, model.grid));
@@ -186,11 +188,11 @@ void Beams::requirePermeable() const
 {
 	for (size_t i = 0; i < structures.size(); ++i) {
 		const Beam& beam = *structures[i].beam;
-		if (!waterFlows || !beam.isBetween || std::isinf(sources[i].from->permittivity)) continue;
+		if (!flow || !beam.isBetween || beam.layer > 0 || std::isinf(sources[i].from->permittivity)) continue;
 		throw std::invalid_argument(gimpm::sentence(
-		        beam.name, ".permittivity = ", sources[i].from->permittivity,
-		        ": with MpmFlow water passes a beam between soil as if there were none, which needs permittivity = inf. For a tight or leaky wall take steady seepage: ",
-		        "MpmWater(pressure=mpm.seepage(...).pressure)."));
+		        beam.name, ".permittivity = ", sources[i].from->permittivity, ": the soil on its two sides is one body, because of ",
+		        inItsWay.empty() ? "another beam within three cells" : inItsWay,
+		        ", and water of MpmFlow passes it as if there were none. Leave that out, or give permittivity = inf."));
 	}
 }
 
@@ -207,11 +209,10 @@ void Beams::requireWhole() const
 
 void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
-	if (!inItsWay.empty()) {
-		gimpm::lookBetween(lines(), cloud, model.grid);
-		return requirePermeable();
-	}
-	gimpm::partSoil(lines(), cloud, model.grid);
+	if (!inItsWay.empty()) gimpm::lookBetween(lines(), cloud, model.grid);
+	else
+		gimpm::partSoil(lines(), cloud, model.grid);
+	requirePermeable();
 	if (processesCount > 1) requireWhole();
 	sides = gimpm::sidesOf(lines(), cloud.position, model.grid.cellSize);
 }

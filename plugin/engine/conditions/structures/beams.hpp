@@ -6,6 +6,7 @@
 #include "engine/conditions/structures/MpmBeam.hpp"
 
 namespace yade {
+class MpmFlow;
 
 class Beams : public Condition<2> {
 public:
@@ -33,8 +34,8 @@ private:
 	vector<int>                 sides;    // sides of points, as the step begins
 	vector<size_t>              crossed;  // points that have gone through a structure, by structure
 
-	bool waterFlows     = false; // MpmFlow, which knows of no beams
-	int  processesCount = 1;
+	shared_ptr<MpmFlow> flow; // null: there is none
+	int                 processesCount = 1;
 
 	vector<gimpm::PartingLine*> lines();
 	void                        requirePermeable() const;
