@@ -56,13 +56,6 @@ class Kept:
 		return next(run for run in self.runs[name] if run.setting == plans[name].parameters | setting)
 
 
-def block(scene):
-	"""Unknowns of a block no larger than what fails over those of a large one with the same cells, and by how much of the load their errors differ at most."""
-	of = {(row['scene'], row['cells']): row for row in rows('two_sizes', 'results', 'runs.csv') if row['choice'] == 'uniform'}
-	both = [(of['tight' + scene.title(), cells], row) for (name, cells), row in of.items() if name == scene and ('tight' + scene.title(), cells) in of]
-	return both[-1][0]['unknowns'] / both[-1][1]['unknowns'], max(abs(small['error'] - large['error']) for small, large in both)
-
-
 def stepRatios():
 	"""Solves with stepTolerance over those of the cheapest equal steps with the same error, where bodies yield."""
 	table = [row for row in rows('load_steps', 'results', 'runs.csv') if row['error'] == row['error'] and row['scene'] in ('slope', 'collapse', 'friction', 'footing')]
@@ -123,8 +116,7 @@ def text(found):
 	unstable = kept.alone('ghostFactor', '0')
 	elastic, plastic = kept.factors('steps', 'column', 'column3d'), kept.factors('steps', 'slope', of=('10', '40'))
 	points, contact = kept.factors('pointsPerCell', 'slope', 'collapse', 'clay', 'seepage', 'sphere'), kept.factors('stiffness', 'sphere', 'clay', of=('100', '1000'))
-	small = block('footing'), block('bar')
-	equal, around = (next(row for row in rows('two_sizes', 'results', 'footing.csv') if (row['dim'], row['cells'], row['reach']) == (2, 24, reach)) for reach in (0, 1))
+	equal, around = (next(row for row in rows('adaptive', 'results', 'footing.csv') if (row['dim'], row['cells'], row['reach']) == (2, 24, reach)) for reach in (0, 1))
 	ratios = stepRatios()
 	seconds, unknowns = solving()
 	sand = Sand()
@@ -134,13 +126,13 @@ def text(found):
 	return f'''**Three settings worth knowing**
 
 1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Half the size multiplies the error by {span([e for e, _ in halved])} for {span([t for _, t in halved])} times the time (scenes without *). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes nothing buys as much.
-2. **`MpmGrid(dim=2, axisymmetric=True)`, and a small body.** A circular footing takes {section.cpu:.2f} s as a section and {quarter.cpu:.1f} s as a quarter in 3D. A block no larger than what fails gives the same load (within {percent(max(d for _, d in small))}) with {span([part for part, _ in small])} of the unknowns ([two_sizes](../two_sizes/README.md)).
+2. **`MpmGrid(dim=2, axisymmetric=True)` where the body is round.** A circular footing takes {section.cpu:.2f} s as a section and {quarter.cpu:.1f} s as a quarter in 3D.
 3. **`fBar=True` where matter keeps its volume** (clay, Poisson's ratio near 0.5): {fBar[0]} times the error for {fBar[1]} times the time. A strip footing with 9 cells over its width has an error of {percent(with9.error)} in {with9.cpu:.2f} s; without F-bar it has {percent(without49.error)} with 49 cells in {without49.cpu:.1f} s ([locking](../locking/README.md)).
 
 **Worth it in some scenes only**
 - *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
 - *`maxSplits=2`*: run-outs; an error of {percent(split.error)} instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where less accuracy is needed; a pulse has an error of {percent(lumped.error)} in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
-- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with some halved twice, same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [two_sizes](../../plugin/docs/studies/two_sizes.md)).
+- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with some halved twice, same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [adaptive](../adaptive/README.md)).
 - *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}).
 - *Sand that dilates*: one point a cell, stiff soil ([sand](../../plugin/docs/studies/sand.md)). With 9, 17, 33 cells over the width N_gamma is {sand.errors('sandSmooth20 sandRough20 sandSmooth30 sandRough30')} off (2 x 2 points, 20 degrees: {sand.errors('sandSmooth20x2')}), N_q {sand.errors('sandSurcharge20')}, N_c {sand.errors('sandCohesion20')}; 5, 10, 20 over a wall: K {sand.errors('sandPassive sandActive')}. `mpm.discretisationError` says {span(sand.estimates())} times that ([discretisation](../discretisation/README.md)).
 

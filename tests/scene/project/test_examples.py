@@ -279,19 +279,9 @@ def test_small_cells_where_the_deformation_varies(yade):
 	assert (run.folder / 'out/slip/slip.png').stat().st_size > 20000
 
 
-def test_two_sizes(yade):
-	"""A part of it, with halved cells; what is in the table is not run again."""
-	example = root / 'examples' / 'two_sizes' / 'two_sizes.py'
-	runs = lambda: re.findall(r'^footing (\d+) (\d) \w+ \S+ (\d+) \S+ \S+ (\S+) ', yade(example, '--scenes', 'footing', '--largest', 4).stdout, re.MULTILINE)
-	errors = [abs(float(error)) for _, _, _, error in runs()]
-	assert len(errors) == 3 and errors == sorted(errors, reverse=True) and 0.02 < errors[-1] < 0.03
-	assert (yade.folder / 'out/two_sizes/two_sizes.png').stat().st_size > 10000 and not runs()
-	assert 'no scene' in yade(example, '--scenes', 'footing,none', fails=True).stderr
-
-
 def test_footing_on_cells_of_two_sizes(yade):
 	"""Figures of its page, with coarse cells: fewer unknowns, and nearly the same limit load."""
-	run = yade(root / 'examples' / 'two_sizes' / 'footing.py', '--cells', 4, '--steps', 8)
+	run = yade(root / 'examples' / 'adaptive' / 'footing.py', '--cells', 4, '--steps', 8)
 	found = [list(map(float, row)) for row in re.findall(r'(\d+) unknowns, \d+ points, N_c = (\S+)', run.stdout)]
 	assert len(found) == 3 and found[1][0] < found[0][0] / 3 and found[2][0] < found[0][0] / 5
 	assert abs(found[1][1] / found[0][1] - 1) < 0.002 and abs(found[2][1] / found[0][1] - 1) < 0.01

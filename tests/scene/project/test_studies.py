@@ -148,7 +148,6 @@ noPictures = '.picture = lambda *a: None; '
 writers = { # without the pictures, which take long
         'extremes': f'import overview; overview{noPictures}' + 'overview.write({0!r})',
         'discretisation': f'import page; page{noPictures}' + 'page.write({0!r})',
-        'two_sizes': f'import page; page{noPictures}' + 'page.write({0!r})',
         'benchmarks': 'import page; page.writeKept({0!r}, {0!r})',
         'load_steps': f'import page; page{noPictures}' + 'page.write({0!r})',
         'trade': f'import overview; overview{noPictures}' + 'overview.write({0!r})'
@@ -168,7 +167,7 @@ def test_kept_pages_are_made_from_the_kept_tables(study, tmp_path):
 @pytest.mark.parametrize('study, tables', {
         'extremes': 'import page; page.draw = lambda *a: []; tables = page.tables(page.read({0!r}), {1!r})',
         'trade': 'import page; page.picture = lambda *a: None; from plans import plans; tables = page.tables({0!r}, plans, {1!r})',
-        **dict.fromkeys(['discretisation', 'load_steps', 'two_sizes'], 'import page; tables = page.tables({0!r})')
+        **dict.fromkeys(['discretisation', 'load_steps'], 'import page; tables = page.tables({0!r})')
 }.items())
 def test_kept_tables_are_made_from_the_kept_runs(study, tables, tmp_path):
 	kept, made = root / 'examples' / study, tmp_path / 'made'

@@ -19,7 +19,7 @@ home = root / 'plugin/docs/studies/validation'
 # Words by which a script says that it prints a number of others beside its own
 compares = re.compile(r"\bprint\(.*(closed form|exact \S*\{|by hand|published|elastica|limit analysis|half space|Lame |Hertz|Prandtl|Timoshenko|theory|reference)")
 # Studies that compare the scenes of other examples on many grids, in tables of their own, estimates of errors, and debris, whose force nothing is known of
-others = {'discretisation', 'trade', 'extremes', 'two_sizes', 'load_steps', 'splitting', 'paper', 'benchmarks', 'debris'}
+others = {'discretisation', 'trade', 'extremes', 'load_steps', 'splitting', 'paper', 'benchmarks', 'debris'}
 
 
 def test_the_page_is_what_the_tables_say():

@@ -5,7 +5,7 @@
 The block is large, 3 widths B wide (half of it) and 2.5 deep, so that most of it does not fail. All runs have cells of the same size at the footing. With --dim 3 it is a square
 footing, a quarter of it, which is compared with equal cells only.
 
-Run it with `scripts/run examples/two_sizes/footing.py [options]`. A row: halvings, how far from the footing's edge cells are smallest [B], unknowns, points, the largest load over area
+Run it with `scripts/run examples/adaptive/footing.py [options]`. A row: halvings, how far from the footing's edge cells are smallest [B], unknowns, points, the largest load over area
 and c_u, its difference from that of equal cells, linear solves, seconds of the processor.
 """
 import os
