@@ -20,7 +20,6 @@ refused = {('axisymmetric', 'period'): ['axisymmetric', 'period'], ('period', 'r
 refused |= {(shape, 'period'): ['periodic grid', 'Walls'] for shape in shapes if shape != 'plate'}
 refused[('freeBody', 'period')] = ['periodic grid', 'Walls']
 refused |= {(scheme, stage): ['inertia'] for scheme in dynamic for stage in ('place', 'excavate')}
-refused[('refinement', 'waterFunction')] = ['refinements', 'water', 'function']
 refused |= {(stage, shaking): ['inertia'] for stage in ('place', 'excavate') for shaking in ('absorbing', 'baseMotion')}
 refused |= {(geometry, 'freeBody'): ['free to move'] for geometry in ('plane', 'axisymmetric')}
 

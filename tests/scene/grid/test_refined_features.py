@@ -55,13 +55,14 @@ print(json.dumps([still, max(b.state.vel.norm() for b in O.bodies), solver.plotD
 	assert imbalance == pytest.approx(added, rel=0.01)
 
 
-def test_ground_under_water_is_at_rest(yade):
+@pytest.mark.parametrize('water', ['level=level', 'pressure=lambda x: 1e4 * max(0, level - x[1])'])
+def test_ground_under_water_is_at_rest(yade, water):
 	"""On layers of cells of three sizes: a water table in large and in small cells and one above the soil; effective stresses and what floor and walls bear."""
-	results = yade(setting + '''
+	results = yade(setting + f'water = lambda level: MpmWater({water}, weight=1e4)' + '''
 out = []
 for level in 1, 3, 6:
 	grid = block((0, 0), (2, 4), MpmRefinement(min=(-inf, 0.6, -inf), max=(inf, 1.4, inf), halvings=2))
-	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), loadCurve=[(0, 1)], boundaries=sides(2), newton=MpmNewton(tolerance=1e-12), verbosity=0, water=[MpmWater(level=level, weight=1e4)])
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), loadCurve=[(0, 1)], boundaries=sides(2), newton=MpmNewton(tolerance=1e-12), verbosity=0, water=[water(level)])
 	O.engines, O.dt = [solver], 1
 	mpm.geostatic()
 	O.step()

@@ -203,7 +203,7 @@ def test_refused(yade):
 	"""Features that have not been shown to be right with cells of several sizes are refused by a sentence that names them."""
 	cases = {
 	        'block(); solver.grid.period = (2, 0, 0)': 'MpmGrid.refinements: a grid with period = (2 0 0)',
-	        'block(water=[MpmWater(pressure=lambda x: 0)])': 'cannot go with water[0].pressure, a function,',
+	        'block(water=[MpmWater(pressure=lambda x: 0)], loads=[MpmBeam(line=[(1, 3), (1, 1)], axialStiffness=1e9, bendingStiffness=1e6)])': 'water[0].pressure, a function, knows the two sides of beams on equal cells only',
 	        "block(newton=MpmNewton(linearSolver='amg'))": "linearSolver = 'amg'",
 	        'block(); solver.grid.refinements = [MpmRefinement(min=(2, 0, 0), max=(1, 0, 0))]': 'MpmRefinement.min = 2 is greater than max = 1 along x',
 	        'block(); solver.boundaries = [*solver.boundaries, MpmBoundary(min=(1.125, 0.125, -inf), max=(1.125, 0.125, inf), fix="x")]': 'boundaries[2] lies between the nodes of larger cells',

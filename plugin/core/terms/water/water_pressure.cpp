@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/water/water_pressure.hpp"
+#include "core/grid/refinement.hpp"
 #include <array>
 
 namespace gimpm {
@@ -83,21 +84,35 @@ template <int Dim> double TabulatedWater<Dim>::sincePeriod(const Index<Dim>& nod
 	return gain;
 }
 
+/// By the cells of the leaf there, or of the next size of which all values are known.
 template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::around(const Vec<Dim>& x, const Vec<Dim>& half) const
 {
+	const Vec<Dim> from = (x - grid_.origin) / grid_.cellSize;
+	if (!(from.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	if (!grid_.refinement) return aroundIn(0, x, half);
+	const Key leaf = grid_.refinement->leafOf(Grid<Dim>::key(Index<Dim>(from.array().floor().template cast<int>())));
+	const int own  = Grid<Dim>::level(leaf);
+	for (int away = 0; away <= grid_.refinement->largest(); ++away)
+		for (const int level : { own - away, own + away })
+			if (0 <= level && level <= grid_.refinement->largest())
+				if (auto found = aroundIn(level, x, half)) return found;
+	return std::nullopt;
+}
+
+template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::aroundIn(int level, const Vec<Dim>& x, const Vec<Dim>& half) const
+{
+	const double                  h = grid_.size(level);
 	std::array<AveragedHats, Dim> hats;
 	int                           count = 1;
 	for (int a = 0; a < Dim; ++a) {
-		const double from = x[a] - grid_.origin[a];
-		if (!(std::abs(from) < grid_.cellSize * Grid<Dim>::indexLimit)) return std::nullopt;
-		hats[a] = AveragedHats(from, std::min(half[a], 0.5 * grid_.cellSize), grid_.cellSize);
+		hats[a] = AveragedHats(x[a] - grid_.origin[a], std::min(half[a], 0.5 * h), h);
 		count *= hats[a].count;
 	}
 	PressureAround<Dim> sum;
 	for (int n = 0; n < count; ++n) {
 		Index<Dim> node, at;
 		for (int a = 0, rest = n; a < Dim; rest /= hats[a].count, ++a)
-			node[a] = rest % hats[a].count, at[a] = hats[a].first + node[a];
+			node[a] = rest % hats[a].count, at[a] = (hats[a].first + node[a]) * (1 << level);
 		const Index<Dim> first    = grid_.first(at);
 		const int        position = find(nodes_, Grid<Dim>::key(first));
 		if (position < 0) return std::nullopt;

@@ -54,7 +54,8 @@ private:
 	std::vector<double> values_;
 	Vec<Dim>            fall_;
 
-	double sincePeriod(const Index<Dim>& node, const Index<Dim>& first) const;
+	std::optional<PressureAround<Dim>> aroundIn(int level, const Vec<Dim>& x, const Vec<Dim>& half) const;
+	double                             sincePeriod(const Index<Dim>& node, const Index<Dim>& first) const;
 };
 
 } // namespace gimpm

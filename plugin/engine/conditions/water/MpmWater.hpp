@@ -64,8 +64,6 @@ public:
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
 	Real                      end(const Analysis&) const override;
-	string                    needsEqualCells(const string& name) const override { return hasFunction() ? name + ".pressure, a function," : ""; }
-	string                    needsUntiedNodes(const string&) const override { return ""; }
 	bool                      goesOn() const override { return changes; }
 	bool                      hasQuestions() const override { return true; }
 	void                      forgetAnswers() override { next.clear(), nextBesideWalls.clear(); }

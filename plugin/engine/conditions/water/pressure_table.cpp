@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/water/pressure_table.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/refinement.hpp"
 #include <algorithm>
 #include <map>
 
@@ -15,18 +16,24 @@ namespace {
 		        function, std::move(places), name + ": MpmWater.pressure", { "a finite pressure [Pa]", [](Real p) { return std::isfinite(p); } });
 	}
 
-	// Nodes of the cells, and those up to `margin` cells around.
+	// Nodes of the cells, and those up to `margin` cells around; of a leaf, cells of its size. Nodes are in smallest
+	// cells, as a function has the same value for cells of all sizes.
 	template <int Dim> vector<Key> nodesAround(const vector<Key>& cells, int margin, const gimpm::Grid<Dim>& grid)
 	{
 		const int   width = 2 + 2 * margin, count = Dim == 2 ? width * width : width * width * width;
 		vector<Key> nodes;
-		for (const Key cell : cells)
+		Key         last = 0;
+		for (const Key cell : cells) {
+			const Key leaf = grid.refinement ? grid.refinement->leafOf(cell) : cell;
+			if (leaf == last && cell != cells.front()) continue;
+			last = leaf;
 			for (int n = 0; n < count; ++n) {
-				gimpm::Index<Dim> node = gimpm::Grid<Dim>::index(cell);
+				gimpm::Index<Dim> node = gimpm::Grid<Dim>::index(leaf);
 				for (int a = 0, rest = n; a < Dim; rest /= width, ++a)
-					node[a] += rest % width - margin;
+					node[a] += (rest % width - margin) * (1 << gimpm::Grid<Dim>::level(leaf));
 				nodes.push_back(gimpm::Grid<Dim>::key(grid.first(node)));
 			}
+		}
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		return nodes;

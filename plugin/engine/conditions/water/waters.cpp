@@ -37,6 +37,10 @@ void Waters<Dim>::take(
 	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
 	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
 	if (areAsked) walls = std::move(among);
+	if (grid.refinement && !walls.empty())
+		throw std::invalid_argument(
+		        group.front().name()
+		        + ".pressure, a function, knows the two sides of beams on equal cells only: leave MpmGrid.refinements and adaptation out, or take MpmFlow.");
 	const auto cells = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
 	for (const Listed& listed : group) {
 		const auto water = waterOf(listed);
