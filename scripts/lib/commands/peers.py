@@ -4,6 +4,7 @@
 	scripts/peers                              all of them; ten minutes on one core
 	scripts/peers --scenes footing beam        some scenes
 	scripts/peers --programs CalculiX          beside one of CalculiX, GetFEM and FEniCS
+	scripts/peers --ample FOLDER               beside AMPLE GS in Octave, all of its set-ups, point by point; an hour on one core
 
 The programs are Debian packages: calculix-ccx, python3-getfem and python3-dolfin (bookworm). Scenes are in scripts/lib/peers/scenes.py: a strip on clay (Prandtl), a cavity in clay,
 consolidation (Terzaghi), a beam on an elastic layer, an embankment in lifts. Finite elements take small strains, the plugin large ones; loads are small enough that this changes
@@ -12,6 +13,7 @@ others from the mesh to the result, without the start of Python. All cases are i
 """
 import os
 
+from peers import ample
 from peers.programs import cases, lacking, ours, programs, run, version
 from peers.scenes import scenes
 
@@ -23,7 +25,9 @@ repeats = 3
 def main(study, arguments):
 	study.option('--scenes', nargs='*', metavar='SCENE', default=[], help=f"some of {', '.join(scenes)}")
 	study.option('--programs', nargs='*', metavar='PROGRAM', default=[], help=f"some of {', '.join(programs)}, or none")
+	study.option('--ample', metavar='FOLDER', help='checkout of branch AMPLE-GS of github.com/wmcoombs/AMPLE-m; only its set-ups are run, with --quick the first')
 	options = study.parse(arguments, timeLimit=300, quick='coarsest sizes only, one run of each')
+	if options.ample: return study.write(list(ample.compare(study, options.ample, list(ample.kinds)[:1 if options.quick else None], 20 * options.time_limit)))
 	chosen = study.chosen(options.scenes, scenes, 'scene')
 	others = [] if options.programs == ['none'] else study.chosen(options.programs, programs, 'program')
 	missing = [f'{name} (package {programs[name].package})' for name in others if not version(name)]
