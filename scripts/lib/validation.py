@@ -45,6 +45,7 @@ runs = {
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
+        'footings': ['footings.py'],
         'tasks': sorted(name for name in os.listdir(os.path.join(examples, 'tasks')) if name.endswith('.py')),
 }
 
@@ -61,6 +62,7 @@ groups = {
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
         'Beside other programs': ['peers'],
+        'Field': ['footings'],
 }
 studiesOnly = 'peers',  # folders of studies, the others of examples
 
@@ -204,14 +206,15 @@ TESTS = """{count} tests that run on every change compare with closed forms and 
 those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.""".replace('\n', ' ')
 
 
-kinds = {'closed form': 'o', 'other program': 's', 'experiment': '^', 'balance, or itself': 'x'}
-_programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same cut in grains|CalculiX|GetFEM|FEniCS')
+kinds = {'closed form': 'o', 'other program': 's', 'experiment': '^', 'field': '*', 'balance, or itself': 'x'}
+_programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same cut in grains|CalculiX|GetFEM|FEniCS|AMPLE')
 _itself = re.compile('balance|its weight|weight of|what was set|what turns|the same (cells|dam|undrained|drained|at V)|nothing changes|by MpmContact|MpmWater of|potential_plane|volume loss|base of the ground bears')
 
 
 def kindOf(source):
 	"""Kind of what a number is compared with."""
 	if 'experiment' in source: return 'experiment'
+	if source.endswith(', field'): return 'field'
 	if _programs.search(source): return 'other program'
 	return 'balance, or itself' if _itself.search(source) else 'closed form'
 
@@ -229,7 +232,7 @@ def summary(found):
 	for kind in kinds:
 		count, median, most, worst = _sizes([row for row in rows if kindOf(row['source']) == kind])
 		shown.append([kind, count, median, most, f"{percentOf(difference(worst))}: {worst['quantity'].split(',')[0]}", f"`{worst['command']}`"])
-	yield 'sources.csv', 'By what it is compared with', [*shown, ['field', 0, '', '', '', '']], 'No measurement in the field is among them yet.'
+	yield 'sources.csv', 'By what it is compared with', shown, ''
 	shown = [['group', 'numbers', 'median', 'nine of ten below', 'command']]
 	for group, folders in groups.items():
 		count, median, most, _ = _sizes([row for folder in folders for row in found[folder]])

@@ -566,6 +566,15 @@ def test_trough_by_law(yade):
 	assert (run.folder / 'out/trough/trough.png').stat().st_size > 20000
 
 
+def test_footings_in_the_field(yade):
+	"""Coarse cells come near the prediction of the page, which is below the tests; 10 kPa of cohesion reaches them at 150 mm."""
+	for cohesion, least, most in (0, 0.5, 0.95), (10e3, 0.85, 1.2):
+		run = yade(root / 'examples' / 'footings' / 'footings.py', '--cells', 2, '--steps', 10, '--cohesion', cohesion)
+		found = [float(ours) / float(theirs) for ours, theirs in re.findall(r' at 150 mm: (\S+) kN, measured (\S+) kN', run.stdout)]
+		assert len(found) == 5 and least < min(found) and max(found) < most
+	assert (run.folder / 'out/footings/footings.png').stat().st_size > 20000
+
+
 def test_drawdown_in_time(yade):
 	"""Slowly it has the factors of given pressures, and quickly smaller ones; coarse cells and brackets."""
 	options = '--cells', 5, '--levels', 2, '--steps', 3, '--tolerance', .1, '--durations', '.01,1000'
