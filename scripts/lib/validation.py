@@ -45,7 +45,7 @@ runs = {
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
-        'footings': ['footings.py'],
+        'footings': ['footings.py', 'transcona.py'],
         'tasks': sorted(name for name in os.listdir(os.path.join(examples, 'tasks')) if name.endswith('.py')),
 }
 

@@ -575,6 +575,14 @@ def test_footings_in_the_field(yade):
 	assert (run.folder / 'out/footings/footings.png').stat().st_size > 20000
 
 
+def test_raft_that_failed(yade):
+	"""The raft of the Transcona elevator fails within 7 % of the pressure in the field, on coarse cells, too."""
+	run = yade(root / 'examples' / 'footings' / 'transcona.py', '--cells', 3)
+	found, measured = numbers(r'fails at (\S+) kPa, measured (\S+) kPa', run.stdout)
+	assert measured == 294 and abs(found / measured - 1) < 0.07
+	assert (run.folder / 'out/transcona/transcona.png').stat().st_size > 20000
+
+
 def test_drawdown_in_time(yade):
 	"""Slowly it has the factors of given pressures, and quickly smaller ones; coarse cells and brackets."""
 	options = '--cells', 5, '--levels', 2, '--steps', 3, '--tolerance', .1, '--durations', '.01,1000'
