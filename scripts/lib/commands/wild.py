@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs public user materials of soils from checkouts of their repositories: an element test, a column and a strip each.
+"""Tries public user materials of soils, and files of records and terrain, from checkouts of their repositories.
 
 	scripts/wild FOLDER                        all laws; five minutes on one core
 	scripts/wild FOLDER --laws Mohr-Coulomb    some laws
+	scripts/wild FOLDER --files                public files of records and terrain, by format
 
-FOLDER has checkouts of the repositories in scripts/lib/wild/laws.py, named as these without their owners; nothing is downloaded, and none of their code is in this project. A law whose
+FOLDER has checkouts of the repositories in scripts/lib/wild/laws.py and files.py, named as these without their owners; nothing is downloaded, and none of their code is in this project. A law whose
 sources are not there is named, and left out. gfortran compiles them. The triaxial test at 100 kPa is compared with a law of the plugin or a closed form; the tangent with differences,
 where the law flows; column and strip, 4 m deep, bear 100 kPa in 20 steps after a geostatic stress. All cases are in results/wild.csv, and are not run again.
 """
 import os
 import shutil
 
+from wild import files
 from wild.laws import laws
 
 study = 'wild'
@@ -20,7 +22,9 @@ values = ['found', 'theirs', 'tangent', 'settlement', 'iterations', 'steps', 'se
 def main(study, arguments):
 	study.option('folder', metavar='FOLDER', help='of the checkouts')
 	study.option('--laws', nargs='*', metavar='LAW', default=[], help=f"some of {', '.join(laws)}")
+	study.option('--files', action='store_true', help='no laws, but the files of scripts/lib/wild/files.py')
 	options = study.parse(arguments, timeLimit=600)
+	if options.files: return tryFiles(study)
 	chosen = study.chosen(options.laws, laws, 'law')
 	if not shutil.which('gfortran'): study.fail('gfortran is not installed. Install the package gfortran of Debian.')
 	missing = {name: laws[name].missing(options.folder) for name in chosen}
@@ -61,3 +65,21 @@ def tables(chosen, rows):
 			if row['why']: ground.append([name, case, said(row), '', '', ''])
 			else: ground.append([name, case, f"{1e3 * float(row['settlement']):.3g}", row['steps'], f"{float(row['iterations']):.3g}", f"{float(row['seconds']):.2g}"])
 	yield 'ground.csv', 'Column and strip', ground, '20 steps of load; more where steps were cut.'
+
+
+def tryFiles(study):
+	"""Reads the public files that are there, and compares the largest acceleration or height with what the file itself tells."""
+	folder = study.options.folder
+	states = {entry[2]: files.state(folder, entry) for entry in files.files}
+	for entry in files.files:
+		if states[entry[2]]: print(f'{files.pathOf(folder, entry)}: {states[entry[2]]}; check out {entry[1][0]} at {entry[1][1]}.')
+	listed = [entry for entry in files.files if states[entry[2]] != 'missing']
+	if not listed: study.fail(f'{folder} has none of the files. Give a folder with checkouts of their repositories.')
+	table = study.table(['file'], ['holds', 'told', 'found', 'why'])
+	study.fill(table, [((entry[2], ), 'wild.files.read', dict(path=os.path.abspath(files.pathOf(folder, entry)), format=entry[0], settings=entry[4])) for entry in listed], study.options.time_limit, ['holds', 'told', 'found', 'why'])
+	rows = [['format', 'file', 'SHA-256', 'holds', 'largest value by the file', 'as read']]
+	for format, (repository, commit, within), file, total, _ in listed:
+		row = table.row((file, ))
+		value = lambda name: f'{float(row[name]):.6g}' if row[name] else '-'
+		rows.append([format, f'[{os.path.basename(file)}](https://github.com/{repository}/blob/{commit}/{within}{file})', f'{total}...', row['why'] or row['holds'], value('told'), value('found')])
+	study.write([('files.csv', 'Files of records and terrain', rows, 'Largest acceleration [cm/s2], or height [m]; - where a header tells none.')], command=f'`scripts/wild FOLDER --files`, {study.provenance}')

@@ -9,6 +9,7 @@ import pytest
 from conftest import root
 
 sys.path.insert(0, str(root / 'scripts' / 'lib'))
+from wild import files
 from wild.laws import laws
 
 
@@ -56,3 +57,21 @@ def test_principal_values_and_rotations_of_stress_and_strain(routines, kind):
 	mean, mises = ctypes.c_double(), ctypes.c_double()
 	routines.sinv_(array(0, 0, -30, 0, 0, 0), ctypes.byref(mean), ctypes.byref(mises), ctypes.byref(three), ctypes.byref(three))
 	assert (mean.value, mises.value) == pytest.approx((-10, 30))
+
+
+def test_files_that_are_missing_or_others_are_named(tmp_path):
+	"""Each file of the list has an address and a check sum; what is not there is left out."""
+	assert all(re.fullmatch('[0-9a-f]{16}', total) and re.fullmatch('[0-9a-f]{40}', commit) for _, (_, commit, _), _, total, _ in files.files)
+	path = tmp_path / 'landlab' / files.landlab[2] / 'mass_wasting_runout'
+	path.mkdir(parents=True)
+	(path / 'A_PlanarSlope.asc').write_text('ncols 2')
+	states = {files.state(tmp_path, entry) for entry in files.files}
+	assert states == {'missing', 'another version'}
+	ended = subprocess.run([root / 'scripts/wild', tmp_path / 'none', '--files'], capture_output=True, text=True, cwd=tmp_path)
+	assert ended.returncode == 1 and 'has none of the files' in ended.stderr and 'check out OpenSees/OpenSees at' in ended.stdout
+
+
+def test_peaks_that_headers_tell(tmp_path):
+	for text, peak in ('PGA_CM/S^2: -0.25', 0.25), ('Max. Acc. (gal)   4.078', 4.078), ('PEAK ACCELERATION =  -267.957    CM/SEC/SEC', 267.957), ('dist = 89.0       pk     =    104.4', 104.4), ('NPTS= 4', None):
+		(tmp_path / 'record').write_text(text)
+		assert files.told(tmp_path / 'record') == peak

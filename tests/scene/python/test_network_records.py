@@ -40,14 +40,15 @@ def cosmos(channels=(1, 2), form='%10.5f', code='8F10.5', unit='cm/sec2(04)'):
 			text += f'{n:8} {kind} pts, approx   20 secs, units={own},Format=({code})\\\\n' + rows(values, form, int(code[0])) + f'End-of-data for Chan {channel:2} {kind}\\\\n'
 	return text
 
-def csmip(channels=(1, 3)):
+def csmip(channels=(1, 3), isOld=False):
 	text = ''
 	for channel in channels:
 		head = ['Corrected accelerogram   1.CI.WLT.--.HN', 'Uncorrected Accelerogram Data', 'Rcrd of Fri', '', '1.CI', 'Station Id. WLT', 'Hacienda Heights                         SCSN   Data: Acceleration', f'Chan {channel:2}:  90 Deg', 'Rcrd of Fri Mar 28, 2014 21:09:34.0 PDT    Fri Mar',
 			'Hypocenter:', 'Instr Period', 'Record length', 'Uncor Max', 'RMS accel', 'Accelerogram bandpass filtered', f' {n} points of instrument- and baseline-corrected accel, veloc and displ data', 'At equally', 'Peak acceleration', 'Peak velocity', 'Peak displ', 'Initial', 'Rcrd', '', '1.CI', '']
 		text += '\\\\n'.join(head) + '\\\\n' + rows(np.full(100, -999), '%5d', 16) + rows(np.full(100, -99.), '%10.5f', 8)
 		for kind, values, unit in (('accel', channel * acceleration, 'cm/sec2.'), ('veloc', channel * velocity, 'cm/sec. ')):
-			text += f'{n:6} points of {kind} data equally spaced at  .020 sec, in {unit} (8f10.5)\\\\n' + rows(values, '%10.5f', 8)
+			if isOld: text += f'{n:6} POINTS OF {kind.upper()} DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: {unit.strip(". ").upper()})\\\\n' + rows(values, '%10.3f', 8)
+			else: text += f'{n:6} points of {kind} data equally spaced at  .020 sec, in {unit} (8f10.5)\\\\n' + rows(values, '%10.5f', 8)
 		text += f'/&  ---------- End of data for channel {channel:2} ----------\\\\n'
 	return text
 
@@ -78,6 +79,7 @@ for text, settings, values, unit, title, isCorrected in (
 	(cosmos(), dict(channel=2), asRead(2 * acceleration, '%.5f'), 'cm/s2', None, True), (cosmos((1, ), '%15.6e', '1E15.6'), {}, asRead(acceleration, '%.6e'), 'cm/s2', None, True),
 	(cosmos((1, ), unit='g(02)'), {}, 980.665 * asRead(acceleration, '%.5f'), 'g', None, True),
 	(csmip(), dict(channel=3), asRead(3 * acceleration, '%.5f'), 'cm/s2', 'Hacienda Heights, Chan 3: 90 Deg, Rcrd of Fri Mar 28, 2014 21:09:34.0 PDT', True),
+	(csmip((1, ), isOld=True), {}, asRead(acceleration, '%.3f'), 'cm/s2', None, True),
 	(smc(), {}, short, 'cm/s2', '1989 10 18 0004 Loma Prieta, CA, San Francisco, 1295 Shafter, F up', True), (smc('1 UNCORRECTED ACCELEROGRAM'), {}, short, 'cm/s2', None, False)):
 	r = record(text, **settings)
 	assert r.step == dt and len(r.acceleration) == n and np.abs(100 * r.acceleration - values).max() < 1e-9 * np.abs(values).max(), (text[:60], r.acceleration[:9], values[:9] / 100)
@@ -104,6 +106,8 @@ for text, settings, words in (
 
 def test_peer_files_of_other_quantities_are_not_taken_for_accelerations(yade):
 	yade(write + '''
+r = record('El Centro\\nThe units are (g)\\nNPTS=  1003, DT= .02000 SEC\\n' + rows(acceleration, '%15.7E', 5))
+assert r.unit == 'g' and abs(r.acceleration[5] / acceleration[5] - 9.80665) < 1e-6
 heading = 'PEER STRONG MOTION DATABASE RECORD\\nSOME EVENT, SOME STATION, 360\\n%s\\nNPTS=  1003, DT= .02000 SEC\\n'
 for line, words in ('DISPLACEMENT TIME HISTORY IN UNITS OF CM. FILTER POINTS: HP=0.12 Hz', 'has cm;'), ('VELOCITY TIME HISTORY IN UNITS OF CM/S', 'has cm/s;'), ('DISPLACEMENT TIME HISTORY', 'has displacement;'), ('ACCELERATION TIME HISTORY IN UNITS OF FT/S2', 'has ft/s2;'):
 	for unit in None, 'cm/s2':

@@ -18,7 +18,7 @@ _null = 1e38  # reals of SMC files that are larger are not known
 
 def unitNamed(text):
 	"""A unit as the project writes it: 'cm/sec/sec', 'CM/S**2' and 'gal' are 'cm/s2'."""
-	plain = re.sub(r'\s+', '', text).lower().rstrip('.,;').replace('sec', 's').replace('**', '').replace('^', '').replace('/s/s', '/s2')
+	plain = re.sub(r'\s+', '', text).lower().strip('.,;()[]').replace('sec', 's').replace('**', '').replace('^', '').replace('/s/s', '/s2')
 	return {'gal': 'cm/s2', 'gals': 'cm/s2', 'cm/s2/s': 'cm/s3'}.get(plain, plain)
 
 
@@ -164,8 +164,10 @@ def _ofCsmip(name, lines):
 			own = re.search(r'Chan\s+(\d+)', ' '.join(head))
 			channel = int(own[1]) if own else 1 + len({one.channel for one in found})
 			title = ', '.join(text[:40].strip() if i != 7 else text.strip() for i, text in enumerate(head) if i in (6, 7, 8))
-		data = re.match(r'\s*(\d+)\s+points of (accel|veloc|displ)\w* data equally spaced at\s*([\d.]+)\s*sec,\s*in\s+(\S+?)\.?\s*\(([^)]*)\)', line, re.IGNORECASE)
-		if data: found.append(_one(name, _quantities[data[2].lower()], data[4], float(data[3]), _numbers(name, lines, row + 1, int(data[1]), data[5]), title, isCorrected, channel))
+		data = re.match(r'\s*(\d+)\s+points of (accel|veloc|displ)\w* data equally spaced at\s*([\d.]+)\s*sec[.,]\s*(?:in\s+(\S+?)\.?\s*\(([^)]*)\)|\(units:\s*([^)]*)\))', line, re.IGNORECASE)
+		if data:  # files of the eighties tell the unit alone
+			values = _numbers(name, lines, row + 1, int(data[1]), data[5] or '8f10.3')
+			found.append(_one(name, _quantities[data[2].lower()], data[4] or data[6], float(data[3]), values, title, isCorrected, channel))
 	if not found: raise ValueError(f'record: {name} begins as a file of CSMIP, and has no line "points of accel data equally spaced at"; is it of Volume 2, and whole?')
 	return found
 
