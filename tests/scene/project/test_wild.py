@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """scripts/wild without the public laws: what it says where they are missing, and the routines of Abaqus that it links to them."""
 import ctypes
+import re
 import subprocess
 import sys
 
