@@ -117,6 +117,8 @@ def ofPeers():
 			yield dict(
 			        command=f'scripts/peers --scenes {scene}', quantity=f"{of.quantity}, h = {ours['h [m]']} m", ours=ours['value'], theirs=theirs['value'], unit=of.unit,
 			        source=f'{program} {versions[program]}, {kind}')
+	for row in results.read(os.path.join(home, 'ample-values.csv')):
+		yield dict(command='scripts/peers --ample FOLDER', quantity=f"{row['quantity'].partition(' [')[0]}, {row['set-up']} of AMPLE GS", ours=row['plugin, same method'], theirs=row['AMPLE as shipped'], unit='m', source='AMPLE GS in Octave')
 
 
 def everything(of=examples):

@@ -54,7 +54,7 @@ def compare(study, folder, names, limit):
 			print(*rows[-1], flush=True)
 			if run == shipped: values.append([name, *quantity(name, his, mine[run[0]], mine[defaults])])
 	yield 'ample.csv', 'AMPLE GS: digits that agree', [head, *rows], 'Digits of the largest difference, over the largest movement and the largest stress; both programs with the same method.'
-	yield 'ample-values.csv', 'AMPLE GS: results', [['set-up', 'quantity', 'AMPLE as shipped', 'plugin, same method', 'difference', 'plugin, defaults', 'difference'], *values]
+	yield 'ample-values.csv', 'AMPLE GS: results', [['set-up', 'quantity', 'AMPLE as shipped', 'plugin, same method', 'difference', 'plugin, defaults', 'difference of the defaults'], *values]
 
 
 head = ['set-up', 'AMPLE', 'points', 'steps', 'its solves', 'our solves', *(f'{of}, {when}' for of in ('positions', 'stresses') for when in ('first step', 'half', 'end'))]

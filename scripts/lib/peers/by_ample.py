@@ -64,7 +64,8 @@ def run(folder, into, name, tolerance, rows, limit):
 	last = os.path.join(into, 'ended')
 	if not os.path.exists(last):
 		prepare(folder, into, name, tolerance, rows)
-		subprocess.run([program, '--quiet', '--no-gui', 'ample.m'], cwd=into, check=True, timeout=limit, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=os.environ | dict(OMP_NUM_THREADS='1'))
+		ended = subprocess.run([program, '--quiet', '--no-gui', 'ample.m'], cwd=into, timeout=limit, capture_output=True, text=True, env=os.environ | dict(OMP_NUM_THREADS='1'))
+		if ended.returncode: raise RuntimeError(f'{name} of AMPLE ends with {ended.returncode}: {ended.stderr[:300]}')
 		open(last, 'w').close()
 	steps = np.loadtxt(os.path.join(into, 'steps.csv'), delimiter=',', ndmin=2)
 	points = np.stack([np.loadtxt(os.path.join(into, f'points{step}.csv'), delimiter=',') for step in range(len(steps) + 1)])

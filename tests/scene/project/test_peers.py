@@ -10,7 +10,7 @@ import pytest
 from conftest import Yade, root
 
 sys.path.insert(0, str(root / 'scripts' / 'lib'))
-from peers import by_calculix, meshes
+from peers import ample, by_ample, by_calculix, meshes
 from peers.programs import lacking, programs, version
 from peers.scenes import Beam, Cavity, Consolidation, Embankment, Footing, radial, surface
 
@@ -68,6 +68,30 @@ def test_a_program_that_is_not_installed_is_named_with_its_package():
 	ended = subprocess.run(['/usr/bin/python3', root / 'scripts/study', 'peers', '--programs', 'GetFEM'], capture_output=True, text=True, env=environment)
 	assert ended.returncode == 1 and 'GetFEM (package python3-getfem): not installed.' in ended.stderr
 	assert 'footing: has no plasticity' in lacking('FEniCS') and lacking('CalculiX') == ''
+
+
+def test_what_ample_lacks_is_named(tmp_path):
+	ended = subprocess.run(['/usr/bin/python3', root / 'scripts/study', 'peers', '--ample', tmp_path, '--out', tmp_path / 'out'], capture_output=True, text=True)
+	assert ended.returncode == 1 and 'setupGrid_beam.m' in ended.stderr and 'branch AMPLE-GS' in ended.stderr
+
+
+def test_a_run_of_ample_has_its_tolerance_and_its_set_up(tmp_path):
+	(tmp_path / 'ample.m').write_text('most = 10; tol = 1e-6;\n')
+	by_ample.prepare(tmp_path, tmp_path / 'run', 'beam', 1e-9, 2)
+	assert (tmp_path / 'run/ample.m').read_text() == 'most = 10; tol = 1e-09;\n' and 'rows = 2;' in (tmp_path / 'run/setupGrid.m').read_text()
+	assert os.readlink(tmp_path / 'run/shipped.m') == str(tmp_path / 'setup/setupGrid_beam.m')
+	(tmp_path / 'ample.m').write_text('')
+	with pytest.raises(ValueError, match='sets tol 0 times'): by_ample.prepare(tmp_path, tmp_path / 'run', 'beam', 1e-9, 2)
+
+
+def test_digits_that_agree():
+	"""Of the largest difference over the largest movement, or stress; points in any order."""
+	start = np.array([[0., 0], [1, 0]])
+	theirs = np.array([start, start + (0, 2), start + (0, 4)]), np.array([[[0.], [0]], [[10], [5]], [[10], [5]]])
+	mine = theirs[0] + [[[0, 0]], [[0, 2e-6]], [[0, 0]]], theirs[1] * 1.01
+	swapped = tuple(values[:, ::-1] for values in mine)
+	found = ample.digits(ample.sort(*swapped), ample.sort(*theirs))
+	assert found[0] == pytest.approx([6, 16]) and found[1] == pytest.approx([2, 2])
 
 
 @pytest.fixture(scope='module')
