@@ -27,7 +27,9 @@ def main(study, arguments):
 	study.option('--programs', nargs='*', metavar='PROGRAM', default=[], help=f"some of {', '.join(programs)}, or none")
 	study.option('--ample', metavar='FOLDER', help='checkout of branch AMPLE-GS of github.com/wmcoombs/AMPLE-m; only its set-ups are run, with --quick the first')
 	options = study.parse(arguments, timeLimit=300, quick='coarsest sizes only, one run of each')
-	if options.ample: return study.write(list(ample.compare(study, options.ample, list(ample.kinds)[:1 if options.quick else None], 20 * options.time_limit)))
+	if options.ample:
+		made = list(ample.compare(study, options.ample, list(ample.kinds)[:1 if options.quick else None], 20 * options.time_limit))
+		return study.write(made, command=f'`scripts/peers --ample FOLDER`, {study.provenance}')
 	chosen = study.chosen(options.scenes, scenes, 'scene')
 	others = [] if options.programs == ['none'] else study.chosen(options.programs, programs, 'program')
 	missing = [f'{name} (package {programs[name].package})' for name in others if not version(name)]

@@ -68,5 +68,5 @@ def quantity(name, his, mine, usual):
 	"""Name and values of the quantity of a set-up."""
 	title, of = quantities[name]
 	theirs, same, default = (of(positions) for positions, _ in (his, mine, usual))
-	percent = lambda value: f'{100 * (value / theirs - 1):+.2g} %'
-	return [title, f'{theirs:.6g}', f'{same:.6g}', percent(same), f'{default:.6g}', percent(default)]
+	percent = lambda value: f'{100 * (value / theirs - 1):+.4f} %'
+	return [title, f'{theirs:.9f}', f'{same:.9f}', percent(same), f'{default:.9f}', percent(default)]
