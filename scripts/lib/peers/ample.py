@@ -53,10 +53,14 @@ def compare(study, folder, names, limit):
 			rows.append([name, runs[run], his[0].shape[1], len(steps), int(steps[:, 0].sum()), solves[name, run[0]], *shown(digits(mine[run[0]], his), len(steps))])
 			print(*rows[-1], flush=True)
 			if run == shipped: values.append([name, *quantity(name, his, mine[run[0]], mine[defaults])])
-	yield 'ample.csv', 'AMPLE GS: digits that agree', [head, *rows], 'Digits of the largest difference, over the largest movement and the largest stress; both programs with the same method.'
-	yield 'ample-values.csv', 'AMPLE GS: results', [['set-up', 'quantity', 'AMPLE as shipped', 'plugin, same method', 'difference', 'plugin, defaults', 'difference of the defaults'], *values]
+	yield 'ample.csv', 'AMPLE GS: digits that agree', [head, *rows], notes[0]
+	yield 'ample-values.csv', 'AMPLE GS: results', [['set-up', 'quantity', 'AMPLE as shipped', 'plugin, same method', 'difference', 'plugin, defaults', 'difference of the defaults'], *values], notes[1]
 
 
+notes = ('''Digits of the largest difference, over the largest movement and the largest stress. The plugin has domains by the stretch, the scaling of the paper and full Newton steps. The meshes of column and collapse
+end where the body does: their top is no free surface, and not stabilised, at first, which leaves 4 digits; two rows of empty elements above it bring the others back. With a tolerance of 1e-6 one program
+does a last solve that the other leaves. AMPLE's return mapping stops at 1e-9, which limits the digits of the collapse.'''.replace('\n', ' '),
+         'The column of AMPLE has points without domains, which end 7.2 % below the exact 23.301 m; domains, the default of the plugin, end 0.3 % below it.')
 head = ['set-up', 'AMPLE', 'points', 'steps', 'its solves', 'our solves', *(f'{of}, {when}' for of in ('positions', 'stresses') for when in ('first step', 'half', 'end'))]
 
 
