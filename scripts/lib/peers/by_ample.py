@@ -25,18 +25,14 @@ if rows > 0
     mesh.bc = [mesh.bc; top(:,1)+2*across*row, top(:,2)];
   end
   [mesh.etpl,mesh.coord,mesh.ftpl,mesh.fntpl] = formCoord2D(n(1),n(2)+rows,span(1),span(2)+rows*mesh.h(2));
-  mesh.eMin = zeros(size(mesh.etpl,1),2); mesh.eMax = mesh.eMin;
-  for axis = 1:2
-    corners = mesh.coord(:,axis)(mesh.etpl);
-    mesh.eMin(:,axis) = min(corners,[],2); mesh.eMax(:,axis) = max(corners,[],2);
-  end
+  mesh.eMin = mesh.coord(mesh.etpl(:,1),:); mesh.eMax = mesh.coord(mesh.etpl(:,3),:);
 end
 """
 
 # Written after each step instead of its output: points, and the solves of the step.
 output = """if lstp == 0, tally = zeros(0,2); else, tally(lstp,:) = [NRit-1 fErr]; end
 dlmwrite('steps.csv',tally,'precision','%.17g');
-dlmwrite(sprintf('points%d.csv',lstp),[reshape([mpData.mpC],nD,nmp)',reshape([mpData.sig],6,nmp)'],'precision','%.17g');
+dlmwrite(sprintf('points%d.csv',lstp),[vertcat(mpData.mpC),horzcat(mpData.sig)'],'precision','%.17g');
 """
 
 
