@@ -18,6 +18,7 @@ struct Pores {
 	double           index         = std::numeric_limits<double>::quiet_NaN();
 	bool             areRigid      = false;   ///< water passes without pressing on the grains, and their strain displaces no water
 	const Retention* retention     = nullptr; ///< null: the pores are always full
+	long             curve         = -1;      ///< its number among the curves of the scene, the same in all processes; -1: there is none
 	double           verticalRatio = 1;       ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
 	double           weightPart    = 1;       ///< part of the weight of the soil that acts [-], in a stage of construction
 

@@ -844,3 +844,11 @@ print(json.dumps([found, [[at(before, y), at(after, y)] for y in (.1, .3, .5, .6
 	assert not differ, 'a scene that was saved goes on with the same bits'
 	for old, new in kept:
 		assert new == pytest.approx(old, abs=0.02 * excess)
+
+
+@pytest.mark.parametrize('pull, expected', [(.9e5, False), (3e5, True)])
+def test_water_that_would_boil_is_warned_of(yade, pull, expected):
+	"""A pull at undrained soil is borne by its water, but for more than the pressure of the air."""
+	run = yade(setting + f'E, q = 1e8, -{pull}\nsolver = column(drains=False, total=True, bulkModulus=2e9)\nsolver.verbosity = 1\nO.dt = 1\nO.run(2, wait=True)\nprint(json.dumps(float(mpm.arrays()["excessPressure"].min())))')
+	assert run.result == pytest.approx(-pull, rel=.1)
+	assert ('water boils' in run.stderr) == expected

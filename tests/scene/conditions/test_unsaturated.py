@@ -171,18 +171,17 @@ def test_what_does_not_go_with_it_is_refused_by_name(yade):
 	said = yade(
 	        setting + '''
 def water(solver): solver.water = [MpmWater(level=1)]
-def distributed(solver): solver.distributed = True
 def table(solver): O.materials[0].retention = MpmRetentionTable(saturations=[(0, 1), (1, .5)])
 def residual(solver): O.materials[0].retention.residual, O.materials[0].retention.saturated = .6, .5
 def base(solver): O.materials[0].retention = MpmRetention()
 def both(solver): solver.flow.drains[0].flux = 1e-6
 def tolerant(solver): solver.flow.saturationTolerance = .01
-print(json.dumps([refusal(total=False, top=None), refusal(total=False, retention=False), refusal(water), refusal(distributed), refusal(table),
+print(json.dumps([refusal(total=False, top=None), refusal(total=False, retention=False), refusal(water), refusal(table),
 	refusal(residual), refusal(base), refusal(both), refusal(tolerant)]))
 '''
 	).result
 	for text, words in zip(said, [
-	        ('retention curve', 'total=True'), ('rain = 2e-06', 'total=True'), ('water[0]', "where = 'outside'"), ('distributed', 'total = True'),
+	        ('retention curve', 'total=True'), ('rain = 2e-06', 'total=True'), ('water[0]', "where = 'outside'"),
 	        ('permeabilities', ), ('residual = 0.6', 'saturated = 0.5'), ('MpmVanGenuchten', ), ('flux', 'rain'), ('saturationTolerance = 0.01', 'stepTolerance')
 	]):
 		assert all(word in text for word in words), (text, words)

@@ -132,8 +132,9 @@ if rank == 0: np.save('pos.npy', pos)
 		assert np.abs(np.load(run.folder / 'pos.npy') - pos).max() < 1e-8, processes
 
 
-def test_water_goes_on_in_other_numbers_of_processes(yade):
-	"""Two processes that share a body from which water is pressed save it, or divide its points; one and three go on."""
+@pytest.mark.parametrize('isWhole', [False, True])
+def test_water_goes_on_in_other_numbers_of_processes(yade, isWhole):
+	"""Two processes that share a body from which water is pressed, or into which rain seeps, save it, or divide its points; one and three go on."""
 	begin = '''
 import json
 import os
@@ -146,7 +147,7 @@ O.run(2, wait=True)
 points = mpm.arrays()
 if rank == 0:
 	with open('reached.json', 'w') as file:
-		json.dump([points['pos'].tolist(), points['excessPressure'].tolist(), solver.flow.waterOut, solver.flow.drains[0].discharge], file)
+		json.dump([points['pos'].tolist(), points["excessPressure"].tolist(), solver.flow.waterOut + solver.flow.waterIn, solver.flow.drains[0].discharge], file)
 '''
 	scene = '''
 O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, conductivity=1e-6, porosity=.4, label='soil'))
@@ -156,6 +157,15 @@ held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), 
 load = MpmTraction(surface=[(4, 4), (0, 4)], pressure=2e4, curve=[(0, 1), (1, 1)])
 O.engines = [MpmImplicitEngine(grid=grid, boundaries=held, loads=[load], loadCurve=[(0, 1), (1, 1)], flow=MpmFlow(drains=[MpmDrain(surface=[(10, 4), (0, 4)])]),
         newton=MpmNewton(tolerance=1e-11), verbosity=0)]
+''' + isWhole * '''
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=1900, conductivity=2e-6, porosity=.4, retention=MpmGardner(alpha=.5), label='top'))
+O.materials[0].retention = MpmVanGenuchten(alpha=1, n=2, residual=.1)
+for body in O.bodies:
+	if body.state.pos[1] > 3: body.material = O.materials[1]
+mpm.assign(excessPressure=[1e4 * (1 - y) for y in mpm.arrays()['pos'][:, 1]])
+solver = O.engines[0]
+solver.gravity, solver.flow = (0, -10, 0), MpmFlow(total=True, unitWeight=1e4, drains=[MpmDrain(surface=[(10, 4), (0, 4)], rain=1e-6)])
+''' + '''
 O.dt = 1e3
 O.run(2, wait=True)
 mpm.save('between.yade.gz')

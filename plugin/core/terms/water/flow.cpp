@@ -97,6 +97,8 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 	const auto& cloud    = step.cloud;
 	auto        pressure = water.pressure;
 	division_.extend(pressure), division_.extend(ownPores_);
+	for (std::size_t p = division_.ownOf(cloud.size()); p < ownPores_.size(); ++p) // pointers of other processes
+		ownPores_[p].retention = ownPores_[p].curve < 0 ? nullptr : water_.whole->curves[ownPores_[p].curve].get();
 	points_.reserve(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		const double J    = cloud.volumeRatio(p);

@@ -50,7 +50,7 @@ std::vector<DrainPoint<3>> quadratureOf(const Surface<3>& surface, const Grid<3>
 }
 
 /// Volume that is filled around each node; of tied ones the mean of their masters'.
-template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, const std::vector<PorePoint>& points)
+template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, const std::vector<PorePoint>& points, const OwnedNodes& nodes)
 {
 	Eigen::VectorXd volume = Eigen::VectorXd::Zero(Eigen::Index(basis.nodes.size()));
 	for (const auto& patch : basis.patches)
@@ -59,6 +59,7 @@ template <int Dim> Eigen::VectorXd filledVolumes(const CloudBasis<Dim>& basis, c
 			for (int n = 0; n < f.count; ++n)
 				if (patch.node[n] >= 0) volume[patch.node[n]] += f.value[n] * points[basis.order[i]].volume;
 		}
+	nodes.complete(volume);
 	basis.affineConstraints.template condense<1>(volume);
 	basis.affineConstraints.template distribute<1>(volume);
 	return volume;
@@ -85,7 +86,7 @@ template <int Dim> std::array<double, 1 << Dim> weightsByVolume(const Attachment
 template <int Dim> void Flow<Dim>::attachDrains(const StepContext<Dim>& step)
 {
 	const auto isRain = [](const Drain<Dim>& drain) { return drain.kind == Drain<Dim>::Kind::rain; };
-	if (std::any_of(water_.drains.begin(), water_.drains.end(), isRain)) filled_ = filledVolumes(basis_, points_);
+	if (std::any_of(water_.drains.begin(), water_.drains.end(), isRain)) filled_ = filledVolumes(basis_, points_, step.ownedNodes);
 	for (int number = 0; number < int(water_.drains.size()) && obstacle_.empty(); ++number)
 		obstacle_ = attachDrain(number, step);
 }
@@ -150,7 +151,8 @@ template <int Dim> void Flow<Dim>::attachPassages(const StepContext<Dim>& step)
 template <int Dim> std::string Flow<Dim>::enclosure(const StepContext<Dim>& step) const
 {
 	const bool hasWayOut = std::any_of(outlets_.begin(), outlets_.end(), [](const Outlet& o) { return o.conductance > 0; });
-	const bool isFull    = std::all_of(points_.begin(), points_.end(), [](const PorePoint& point) { return !point.pores->retention; });
+	const bool isFull
+	        = step.division.sum(std::count_if(points_.begin(), points_.end(), [](const PorePoint& point) { return point.pores->retention; })) == 0;
 	if (hasWayOut || std::isfinite(water_.modulus) || !isFull) return "";
 	Eigen::VectorXd push = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), size = push;
 	for (const auto& patch : basis_.patches)

@@ -7,7 +7,8 @@ namespace gimpm {
 /// Gives nodes the content that their points have more or less than these say, as points have moved on the grid.
 template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 {
-	const auto& known = water_.whole->saturation;
+	auto known = water_.whole->saturation;
+	division_.extend(known);
 	curves_.emplace(points_, basis_);
 	before_ = curves_->at(P);
 	correction_.assign(points_.size(), 0);
@@ -29,11 +30,13 @@ template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
 	const Eigen::VectorXd P       = state.value(field);
 	const auto            wetness = curves_->at(P);
 	double                stored  = 0;
-	water_.whole->saturation.resize(points_.size());
+	const int             own     = division_.ownOf(points_.size());
+	water_.whole->saturation.resize(own);
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			const int                   p = basis_.order[i];
-			const PointFunctions<Dim>   f(basis_, i, patch);
+			const int                 p = basis_.order[i];
+			const PointFunctions<Dim> f(basis_, i, patch);
+			if (p >= own) continue;
 			const FlowPoint<Dim>        s(points_[p], patch, f, state.displacements(), P, water_.modulus);
 			const UnsaturatedPoint<Dim> u = unsaturated(p, patch, f, s, wetness);
 			for (int n = 0; n < f.count; ++n)

@@ -31,8 +31,6 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 {
 	string what;
 	if (analysis.isExplicit()) what = analysis.className() + ".scheme = 'explicit'";
-	else if (total && analysis.distributed)
-		what = analysis.className() + ".distributed = True and total = True";
 	else if (analysis.ghost->workTolerance < 1)
 		what = "MpmGhost.workTolerance < 1, which knows of no work of water";
 	else if (analysis.ghost->memory > 0)

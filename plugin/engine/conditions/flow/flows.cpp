@@ -104,7 +104,8 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
 	if (from->total) beginWhole(around);
 	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
-	if (pressuresAreNew) fillNewPoints(around.cloud.material);
+	pressuresAreNew = model.division->largest(pressuresAreNew ? 1 : 0) > 0;
+	if (pressuresAreNew) fillNewPoints(around.cloud.material, *model.division);
 	takeNodes();
 	takeDrains(model, around);
 	Real       sum = 0, fastest = 0; // sum of constrained moduli; largest coefficient of consolidation
@@ -162,7 +163,7 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 		else if (std::isnan(ofMaterial.porosity))
 			ofMaterial = poresOf(points[p], *points[p].material, from->unitWeight);
 		gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
-		pores.retention     = curveOf(points[p]);
+		takeCurve(points[p], pores);
 		if (water.whole) water.whole->saturation.push_back(points[p].state->saturation), pressuresAreNew |= std::isnan(points[p].state->saturation);
 		water.pressure.push_back(points[p].state->excessPressure);
 		const Real J = around.cloud.volumeRatio(p);
@@ -230,12 +231,17 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 
 template <int Dim> std::map<string, string> Flows<Dim>::warnings() const
 {
-	constexpr Real           oscillates = 0.25, hardlyFlows = 1e-3;
+	constexpr Real           oscillates = 0.25, hardlyFlows = 1e-3, vacuum = -101e3; // [Pa] below the pressure of the air
 	std::map<string, string> found;
 	if (water.stabilisation == 0 && shortest < oscillates * acrossCell && !std::isfinite(water.modulus))
 		found["flow.stabilisation"] = "flow.stabilisation = 0 with steps of " + textOf(shortest)
 		        + " s: below cellSize^2 / (4 c_v) = " + textOf(oscillates * acrossCell)
 		        + " s, with the coefficient of consolidation c_v, pressures change from node to node. Leave stabilisation at its default, or take longer steps.";
+	if (lowest < vacuum)
+		found["cavitation"] = "flow: the pressure of the water has fallen to " + textOf(lowest) + " Pa where pores are always full. Below "
+		        + textOf(vacuum)
+		        + " Pa water boils and pulls no more, so that soil which dilates before water can come is weaker than here: give a smaller dilationAngle, or "
+		          "with total = True materials a retention.";
 	if (isRamp && shortest < 1 && shortest < hardlyFlows * acrossCell)
 		found["steps of flow"] = "O.dt = " + textOf(shortest)
 		        + ": is it a part of the load? With flow it is a time [s], in which pressures would spread over "
@@ -291,6 +297,7 @@ template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 		state.excessPressure = water.pressure[p];
 		state.porePressure   = (std::isnan(state.porePressure) ? 0 : state.porePressure) + water.pressure[p];
 		if (water.whole) state.saturation = water.whole->saturation[p];
+		if ((still || water.whole) && !step.points[p].material->retention) lowest = std::min(lowest, state.porePressure);
 		state.waterFlux.setZero();
 		state.waterFlux.template head<Dim>() = water.flux[p];
 	}

@@ -23,20 +23,22 @@ private:
 	Eigen::VectorXd                   pressing(const gimpm::CloudBasis<Dim>&, const Eigen::VectorXd* field) const;
 	std::unique_ptr<gimpm::Term<Dim>> frozen(const gimpm::StepContext<Dim>&) const;
 	void                              beginWhole(const Surroundings<Dim>&);
-	const gimpm::Retention*           curveOf(const MaterialPoint&);
+	int                               curveOf(const MpmRetention&);
+	void                              takeCurve(const MaterialPoint&, gimpm::Pores&);
 	void                              takePoints(const Surroundings<Dim>&, const gimpm::Division&);
-	void                              fillNewPoints(const vector<int>& materials);
+	void                              fillNewPoints(const vector<int>& materials, const gimpm::Division&);
 	void                              takeNodes();
 	void                              takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
 	void                              keepNodes();
 
-	shared_ptr<MpmFlow>                                    from;
-	std::map<const MpmRetention*, const gimpm::Retention*> curves;
-	gimpm::SoilWater<Dim>                                  water;
-	gimpm::Grid<Dim>                                       lattice;
-	shared_ptr<MpmWater>                                   still; // null: there is none with a level
+	shared_ptr<MpmFlow>                from;
+	std::map<const MpmRetention*, int> curves; // numbers
+	gimpm::SoilWater<Dim>              water;
+	gimpm::Grid<Dim>                   lattice;
+	shared_ptr<MpmWater>               still;                     // null: there is none with a level
 	Real acrossCell      = std::numeric_limits<Real>::infinity(); // time in which pressures spread over a cell where they do fastest [s]
 	Real shortest        = acrossCell;                            // step [s]
+	Real lowest          = 0;                                     // whole pressure where pores are always full [Pa]
 	bool pressuresAreNew = false;                                 // whole pressures of some points have been given since the last step
 	bool isRamp          = false;                                 // the loads grow within the first second, as nobody has said otherwise
 };

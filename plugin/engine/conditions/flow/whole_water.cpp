@@ -19,31 +19,36 @@ template <int Dim> void Flows<Dim>::beginWhole(const Surroundings<Dim>& around)
 	whole.weight.setZero();
 	if (!gravity.isZero(0)) whole.weight = from->unitWeight * gravity.normalized().template head<Dim>();
 	whole.bishop = bishopOf(*from);
+	for (const auto& material : around.scene.materials) // in the same order in all processes
+		if (const auto* soil = dynamic_cast<const MpmMaterial*>(material.get()); soil && soil->retention) curveOf(*soil->retention);
 	if (around.analysis.newton->stepTolerance > 0) whole.saturationTolerance = from->saturationTolerance;
 }
 
-// Null: the pores of the point are always full.
-template <int Dim> const gimpm::Retention* Flows<Dim>::curveOf(const MaterialPoint& point)
+template <int Dim> int Flows<Dim>::curveOf(const MpmRetention& retention)
+{
+	const auto [found, isNew] = curves.emplace(&retention, int(curves.size()));
+	if (isNew) water.whole->curves.push_back(std::make_shared<gimpm::Retention>(retention.law(from->unitWeight)));
+	return found->second;
+}
+
+// None: the pores of the point are always full.
+template <int Dim> void Flows<Dim>::takeCurve(const MaterialPoint& point, gimpm::Pores& pores)
 {
 	const MpmMaterial& material = *point.material;
-	const auto         refuse   = [&](const string& what) {
-                throw std::invalid_argument("Body #" + std::to_string(point.id) + ": its material '" + material.label + "' " + what);
-	};
-	if (!material.retention) return nullptr;
-	if (!from->total) refuse("has a retention curve, which needs MpmFlow(total=True): then excessPressure is the whole pressure of the water.");
-	const gimpm::Retention*& curve = curves[material.retention.get()];
-	if (!curve) {
-		water.whole->curves.push_back(std::make_shared<gimpm::Retention>(material.retention->law(from->unitWeight)));
-		curve = water.whole->curves.back().get();
-	}
-	return curve;
+	if (!material.retention) return;
+	if (!from->total)
+		throw std::invalid_argument(
+		        "Body #" + std::to_string(point.id) + ": its material '" + material.label
+		        + "' has a retention curve, which needs MpmFlow(total=True): then excessPressure is the whole pressure of the water.");
+	pores.curve     = curveOf(*material.retention);
+	pores.retention = water.whole->curves[pores.curve].get();
 }
 
 // Points that join others bring the water of their pressure. Where all are new, that of the nodes counts.
-template <int Dim> void Flows<Dim>::fillNewPoints(const vector<int>& materials)
+template <int Dim> void Flows<Dim>::fillNewPoints(const vector<int>& materials, const gimpm::Division& division)
 {
 	auto& known = water.whole->saturation;
-	if (std::all_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); })) return;
+	if (division.sum(std::all_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); }) ? 0 : 1) == 0) return;
 	for (size_t p = 0; p < known.size(); ++p)
 		if (std::isnan(known[p]))
 			known[p] = gimpm::saturationOf(water.ownPores.empty() ? water.pores[materials[p]] : water.ownPores[p], water.pressure[p]).value;
@@ -71,8 +76,8 @@ template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gi
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>&) const;                                                   \
 	template void                              Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                           \
-	template void                              Flows<Dim>::fillNewPoints(const vector<int>&);                                                              \
-	template const gimpm::Retention*           Flows<Dim>::curveOf(const MaterialPoint&);
+	template void                              Flows<Dim>::fillNewPoints(const vector<int>&, const gimpm::Division&);                                      \
+	template void                              Flows<Dim>::takeCurve(const MaterialPoint&, gimpm::Pores&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
