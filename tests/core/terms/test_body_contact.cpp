@@ -70,8 +70,9 @@ namespace {
 				contacts.bodies.back().refine(h);
 			}
 			contacts.meetings.push_back({ 0, 1, friction, infinity, stiffness });
-			model.coupledTerms
-			        = { [this](const StepContext<Dim>& step, const State& begin) { return std::make_unique<BodyContact<Dim>>(contacts, step, begin); } };
+			model.coupledTerms = { [this](const StepContext<Dim>& step, const State& begin) {
+				return std::make_unique<BodyContact<Dim>>(contacts, step, begin);
+			} };
 		}
 		/// Without equilibrium: nodes go where they are told to. The force on the lower body.
 		template <class F> Vec<Dim> go(F&& displacementOf)
