@@ -29,6 +29,7 @@ options = readOptions('Rain and suction.',
         cut=(0.5, 'part of a cell that soil fills where the surface cuts one'),
         longest=(0.005, 'longest step, over the time of the scene'))
 weight, stiff = 9810., 1e9  # of water [N/m3]; Young's modulus of soil that hardly moves [Pa]
+solves = []  # solves of all steps, for scripts/trade
 
 
 def scene(height, gravity, pressure, drains, upper=None, law=MpmElasticMat, **soil):
@@ -52,6 +53,7 @@ def advance(end, first, longest):
 	while O.time < end * (1 - 1e-9):
 		O.dt = min(O.dt, end - O.time)
 		O.step()
+		solves.append(O.engines[0].iterations)
 		O.dt = min(1.2 * O.dt, longest)
 	flow = O.engines[0].flow
 	return abs(flow.waterIn - flow.waterOut - flow.waterStored) / max(flow.waterIn, 1e-30)
@@ -135,6 +137,8 @@ def column(axes, name, height, K, upper=None):
 		compared(f'head {at:g} m above the water table{" in layers" if upper else ""} after {hours} h of rain', np.interp(at, z, p / weight), np.interp(at, z, heads), 'Srivastava and Yeh 1991', 'm')
 		axes.plot(p / weight, z, label=f'{hours} h')
 		axes.plot(heads[::len(z) // 20], z[::len(z) // 20], 'ko', ms=2)
+	global error  # for scripts/trade
+	error = worst / span
 	print(f'{name}: heads within {worst * 1e3:.2f} mm of the closed form, {100 * worst / span:.2f} % of their range')
 	axes.set(title=f'{name}, dots: closed form', xlabel='head [m]')
 	below(axes)

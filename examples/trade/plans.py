@@ -158,6 +158,13 @@ plans = {
                         alone=dict(cut=['0.1', '0.9'], stabilisation=['0', '0.1', '3'], skin=['3', '10', '100', '1000']), around=[dict(cells='10', steps='80'), dict(cells='20', steps='40')],
                         quick=dict(cells=['5'], steps=['10']),
                         words=dict(cells='cells over the height', steps='steps to T = 1', error='degree of consolidation from T = 0.02 on')),
+        'rain':
+                Plan(
+                        script=os.path.join(here, '..', 'rain', 'rain.py'), errors=['error'], parameters=dict(scene="'rain'", cells='40', cut='0.5', longest='0.01', out="'out'"),
+                        together=dict(cells=['10', '20', '40', '80'], longest=['0.04', '0.02', '0.01', '0.005', '0.0025']),
+                        alone=dict(cut=['0.1', '0.9']), around=[dict(cells='20', longest='0.01')],
+                        quick=dict(cells=['10'], longest=['0.04']),
+                        words=dict(cells='cells over the height', longest='a quarter of the longest step, over the time', error='heads, over their range')),
         'circle':
                 Plan(
                         script=os.path.join(here, '..', 'axisymmetric', 'axisymmetric.py'), errors=['error'], parameters=dict(scene="'rough'", cells='4', steps='16', out="'out'"),
