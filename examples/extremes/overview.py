@@ -93,7 +93,7 @@ def compared(rows):
 def introduction(rows):
 	return f'''# Stability at the extremes
 
-How far can a parameter go before the method breaks down? `scripts/extremes` drives {len(listed())} parameters to extremes in {len(rows):,} cases, in 2D and 3D: without ghost stabilisation, with it (mesh-independent, h¹), and in the scaling of the paper (h³). Safe means: no step is cut, and the error is at most 5 % or three times the smallest. [The study](../../plugin/docs/studies/extremes.md) has all cases.
+How far can a parameter go before the method breaks down? `scripts/extremes` drives {len(listed())} parameters to extremes in {len(rows):,} cases, in 2D and 3D: without ghost stabilisation, with it (mesh-independent, h¹), and as in the paper (h³). Safe: no step is cut, and the error is at most 5 %, or three times the smallest ([all cases](../../plugin/docs/studies/extremes.md)).
 
 ## Run it
 
@@ -115,7 +115,7 @@ def text(rows):
 
 1. **`MpmGhost()`, as it is** (`factor=1e-2`): of {count} parameters {safe[default]} are safe throughout; without it {safe['none']}, in the paper's scaling {safe['paper']}. Cases that do not run: {percent(failed[default])}, {percent(failed['none'])} and {percent(failed['paper'])}. Overlaps of 1e-15 of a cell, cells of 1e-7 to 1e7 m, any modulus and rotations of 90° in a step do no harm.
 2. **2 x 2 points a cell, not one**: one has an error of {error('points', '1')} instead of {error('points', '2')} in the column ({at('points', '1', ghost='none')['failure']} without stabilisation). Pressed soil that grows aside: {at('contactClamped', '1')['failure']} (2 x 2: {error('contactClamped', '2')}).
-3. **`fBar=True` for Poisson's ratios from 0.45 on**: the error of a bent bar is {error('bendingFBar', '0.49')} at 0.49 and {error('bendingFBar', '0.499999')} at 0.499999; without it {error('bending', '0.49')}, {error('bending', '0.499999')}. Not for yield stresses below {rangeOf(rows, 'yieldFBar', default).split()[-1]} of the modulus.
+3. **`fBar=True` for Poisson's ratios from 0.45 on**: a bent bar is off by {error('bendingFBar', '0.49')} at 0.49, {error('bendingFBar', '0.499999')} at 0.499999; without it {error('bending', '0.49')}, {error('bending', '0.499999')}. Not for yield stresses below {rangeOf(rows, 'yieldFBar', default).split()[-1]} E.
 
 **Wrong without an error message**
 
@@ -131,7 +131,7 @@ def text(rows):
 '''
 
 
-TABLE = """**Where the default ends** (in 2D and 3D; parameters that are not in this table are safe throughout; [without ghost stabilisation and in the scaling of the paper](../../plugin/docs/studies/extremes.md#safe-ranges)):
+TABLE = """**Where the default ends**; others are safe throughout ([without ghost, and as in the paper](../../plugin/docs/studies/extremes.md#safe-ranges)):
 """
 
 

@@ -12,7 +12,7 @@ from math import cos, inf, nan, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmDrain, MpmElasticMat, MpmFlow, MpmGrid, MpmImplicitEngine, MpmNewton, MpmWater, Omega
+from yade.wrapper import MpmBoundary, MpmDrain, MpmElasticMat, MpmFlow, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVanGenuchten, MpmWater, Omega
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
@@ -92,6 +92,28 @@ class Consolidating(Column):
 		points = mpm.arrays()
 		exact = -self.unit * (self.height - points['pos0'][:, 1])
 		return np.average(np.abs(points['stress'][:, 1, 1] - points['porePressure'] - exact), weights=[b.state.volume0 for b in O.bodies]) / (self.unit * self.height)
+
+
+class Flooded(Column):
+	"""Dry soil that hardly strains, on whose top water stands from the first step on; exact is that no water is lost, and no soil drier than at first or more than full.
+
+	:param suction: head at first over the height of the column, which is the inverse of van Genuchten's alpha
+	:param n: van Genuchten's
+	"""
+
+	def __init__(self, dim, ghost, suction, n=2., **more):
+		super().__init__(dim, ghost, confined=True, weight=1e-6, steps=20, **more)
+		w, high, gammaW = 2 * cellSize, self.height, self.unit / 2
+		for material in O.materials:
+			material.conductivity, material.porosity, material.retention = .1 * high * self.steps, .4, MpmVanGenuchten(alpha=1 / high, n=n, residual=.1)
+		mpm.assign(excessPressure=np.full(len(O.bodies), -suction * gammaW * high))
+		corners = [(w, high, 0), (0, high, 0)] if dim == 2 else [[(0, high, 0), (0, high, w), (w, high, w)], [(0, high, 0), (w, high, w), (w, high, 0)]]
+		self.engine.flow = MpmFlow(total=True, unitWeight=gammaW, drains=[MpmDrain(surface=corners)], ghost=0 if ghost == 'none' else .01)
+		self.first = .1 + .9 * (1 + suction**n)**(1 / n - 1)
+
+	def error(self):
+		S, flow = mpm.arrays()['saturation'], self.engine.flow
+		return max(self.first - S.min(), S.max() - 1, abs(flow.waterIn - flow.waterOut - flow.waterStored) / flow.waterIn, 0)
 
 
 class Wet(Column):
@@ -246,6 +268,9 @@ def scene(axis, dim, ghost, value):
 	if axis == 'flowStep': return Consolidating(dim, ghost, value, weight=1e-2)
 	if axis == 'flowCut': return Consolidating(dim, ghost, 1e-2, weight=1e-2, overlap=(0, value))
 	if axis == 'flowPorosity': return Consolidating(dim, ghost, 1, porosity=value, conductivityLaw='kozeny-carman', weight=2e-2)
+	if axis == 'suction': return Flooded(dim, ghost, value)
+	if axis == 'suctionPores': return Flooded(dim, ghost, 10., n=value)
+	if axis == 'suctionCut': return Flooded(dim, ghost, 10., overlap=(0, value))
 	if axis == 'young': return Column(dim, ghost, E=value)
 	if axis == 'strain': return Column(dim, ghost, weight=value)
 	if axis == 'steps': return Column(dim, ghost, confined=True, weight=4, steps=value)
