@@ -1,41 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/affine_constraints.hpp"
-#include <map>
+#include "core/grid/hanging_nodes.hpp"
 
 namespace gimpm {
 namespace {
-
-using Masters = std::map<Key, double>;
-
-template <int Dim> class Resolver {
-public:
-	Resolver(const Refinement<Dim>& refinement, int layer) : refinement_(refinement), layer_(layer) { }
-
-	/// Adds `share` of what the position of a node depends on.
-	void add(const Index<Dim>& node, double share, Masters& masters) const
-	{
-		const int        level = refinement_.largestAt(node);
-		const Index<Dim> low   = node.unaryExpr([&](int i) { return floorTo(i, level); });
-		const Vec<Dim>   xi    = (node - low).template cast<double>() / (1 << level);
-		if (xi.isZero(0)) {
-			masters[Grid<Dim>::key(node, level, layer_)] += share;
-			return;
-		}
-		for (int c = 0; c < 1 << Dim; ++c) {
-			Index<Dim> corner = low;
-			double     weight = share;
-			for (int a = 0; a < Dim; ++a) {
-				corner[a] += (c >> a & 1) << level;
-				weight *= c >> a & 1 ? xi[a] : 1 - xi[a];
-			}
-			if (weight > 0) add(corner, weight, masters);
-		}
-	}
-
-private:
-	const Refinement<Dim>& refinement_;
-	const int              layer_;
-};
 
 void addKeys(std::vector<Key>& sorted, const std::vector<Key>& others)
 {
@@ -44,22 +12,33 @@ void addKeys(std::vector<Key>& sorted, const std::vector<Key>& others)
 	sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
 }
 
+/// Masters of a node: of a hanging one those in its layer, and of each of them the one that stands for it.
+template <int Dim> Masters mastersOf(Key node, const Grid<Dim>& grid)
+{
+	Masters found = grid.refinement ? mastersIn(*grid.refinement, node) : Masters { { node, 1. } };
+	if (!grid.parting || Grid<Dim>::layer(node) == 0) return found;
+	Masters those;
+	for (const auto& [master, weight] : found)
+		those[grid.parting->nodeFor(master)] += weight;
+	return those;
+}
+
 } // namespace
 
-template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Grid<Dim>& grid)
 {
+	AffineConstraints affineConstraints;
+	if (!grid.refinement && !grid.parting) return affineConstraints;
 	std::vector<std::pair<Key, Masters>> tied;
 	std::vector<Key>                     masters;
 	for (const Key node : nodes) {
-		Masters found;
-		Resolver<Dim>(refinement, Grid<Dim>::layer(node)).add(Grid<Dim>::index(node), 1, found);
+		Masters found = mastersOf(node, grid);
 		if (found.count(node)) continue;
 		for (const auto& [master, weight] : found)
 			masters.push_back(master);
 		tied.emplace_back(node, std::move(found));
 	}
 	addKeys(nodes, masters);
-	AffineConstraints affineConstraints;
 	for (const auto& [node, found] : tied) {
 		affineConstraints.node.push_back(position(nodes, node));
 		for (const auto& [master, weight] : found) {
@@ -71,28 +50,7 @@ template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Ref
 	return affineConstraints;
 }
 
-template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Parting<Dim>& parting)
-{
-	std::vector<Key> tied, masters;
-	for (const Key node : nodes)
-		if (const Key master = parting.nodeFor(node); master != node) {
-			tied.push_back(node);
-			masters.push_back(master);
-		}
-	addKeys(nodes, masters);
-	AffineConstraints affineConstraints;
-	for (std::size_t t = 0; t < tied.size(); ++t) {
-		affineConstraints.node.push_back(position(nodes, tied[t]));
-		affineConstraints.master.push_back(position(nodes, masters[t]));
-		affineConstraints.weight.push_back(1);
-		affineConstraints.start.push_back(int(t) + 1);
-	}
-	return affineConstraints;
-}
-
-template AffineConstraints tieNodes(std::vector<Key>&, const Refinement<2>&);
-template AffineConstraints tieNodes(std::vector<Key>&, const Refinement<3>&);
-template AffineConstraints tieNodes(std::vector<Key>&, const Parting<2>&);
-template AffineConstraints tieNodes(std::vector<Key>&, const Parting<3>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Grid<2>&);
+template AffineConstraints tieNodes(std::vector<Key>&, const Grid<3>&);
 
 } // namespace gimpm

@@ -3,7 +3,6 @@
 // ones, and those beside a line that parts a body which it leaves whole.
 #pragma once
 #include "core/grid/parting.hpp"
-#include "core/grid/refinement.hpp"
 
 namespace gimpm {
 
@@ -40,13 +39,11 @@ struct AffineConstraints {
 	}
 };
 
-/// Ties the nodes of a refined grid, to which their masters are added; they stay sorted. A node is tied to the corners
-/// of the largest leaf that touches it, and these in turn to theirs; a corner of that leaf itself to the node of the
+/// Ties nodes, to which their masters are added; they stay sorted. In a refined grid a node is tied to the corners of
+/// the largest leaf that touches it, and these in turn to theirs; a corner of that leaf itself to the node of the
 /// leaf's level there, unless it is that node. So the functions of all levels together are continuous, and in a leaf
-/// they are linear along each axis.
-template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
-
-/// Ties nodes of layers above 0 that are not nodes of their own to those of layer 0 in their places, which are added.
-template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Parting<Dim>&);
+/// they are linear along each axis. Where lines part the body, masters in layers above 0 that are not nodes of their own
+/// are replaced by those of layer 0 in their places.
+template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Grid<Dim>&);
 
 } // namespace gimpm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/cloud_basis.hpp"
+#include "core/grid/neighbours.hpp"
 #include "core/grid/point_order.hpp"
 #include "core/grid/tile_order.hpp"
 #include <algorithm>
@@ -141,8 +142,8 @@ template <int Dim> std::vector<Key> cornersOf(const std::vector<Key>& cells)
 	return nodes;
 }
 
-/// The leaves, and the ties of the nodes.
-template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refinement)
+/// The leaves of the cells.
+template <int Dim> void findLeaves(CloudBasis<Dim>& b, const Refinement<Dim>& refinement)
 {
 	for (const Key cell : b.cells)
 		b.leaves.push_back(refinement.leafOf(cell));
@@ -150,34 +151,29 @@ template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refine
 	sortOut(b.leaves);
 	for (const Key leaf : leafOfCell)
 		b.leafOf.push_back(position(b.leaves, leaf));
-	std::vector<Key> cells = b.cells;
-	cells.insert(cells.end(), b.leaves.begin(), b.leaves.end());
-	forLeafFaces(b.leaves, refinement, [&](Key, Key, Key lower, int axis) {
-		cells.push_back(lower);
-		cells.push_back(lower + Grid<Dim>::keyStep(axis, Grid<Dim>::level(lower)));
-	});
-	sortOut(cells);
-	b.nodes             = cornersOf<Dim>(cells);
-	b.affineConstraints = tieNodes(b.nodes, refinement);
 }
 
-/// The cells that stand for those of the layers, and the ties of the nodes.
-template <int Dim> void part(CloudBasis<Dim>& b, const Parting<Dim>& parting)
+/// The cells that stand for those of the layers, the leaves, and the nodes with their ties.
+template <int Dim> void refineAndPart(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 {
 	std::vector<Key> cells = b.cells;
-	std::transform(b.cells.begin(), b.cells.end(), b.cells.begin(), [&](Key cell) { return parting.cellFor(cell); });
-	sortOut(b.cells);
-	cells.insert(cells.end(), b.cells.begin(), b.cells.end());
-	for (const Key cell : b.cells)
+	if (grid.parting) {
+		std::transform(b.cells.begin(), b.cells.end(), b.cells.begin(), [&](Key cell) { return grid.parting->cellFor(cell); });
+		sortOut(b.cells);
+		cells.insert(cells.end(), b.cells.begin(), b.cells.end());
+	}
+	if (grid.refinement) findLeaves(b, *grid.refinement);
+	cells.insert(cells.end(), b.leaves.begin(), b.leaves.end());
+	for (const Key leaf : b.populatedLeaves())
 		for (int a = 0; a < Dim; ++a)
-			parting.forCellsBeyond(cell, a, true, [&](Key above, int layer) {
-				if (find(b.cells, above) < 0) return;
-				cells.push_back(Parting<Dim>::in(layer, cell));
-				cells.push_back(Parting<Dim>::in(layer, above));
+			forCellsAbove(leaf, a, grid, [&](Key above, Key lower) {
+				if (find(b.populatedLeaves(), above) < 0) return;
+				cells.push_back(lower);
+				cells.push_back(lower + Grid<Dim>::keyStep(a, Grid<Dim>::level(lower)));
 			});
 	sortOut(cells);
 	b.nodes             = cornersOf<Dim>(cells);
-	b.affineConstraints = tieNodes(b.nodes, parting);
+	b.affineConstraints = tieNodes(b.nodes, grid);
 }
 
 /// The numbers of the cells and nodes of each patch; by what cell another one stands for is given.
@@ -199,9 +195,7 @@ template <int Dim, class CellFor> void numberPatches(CloudBasis<Dim>& b, const G
 template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, const Division& division)
 {
 	b.cells = division.united(populatedCells(b.patches, grid));
-	if (grid.refinement) refine(b, *grid.refinement);
-	else if (grid.parting)
-		part(b, *grid.parting);
+	if (grid.refinement || grid.parting) refineAndPart(b, grid);
 	else
 		b.nodes = cornersOf<Dim>(b.cells);
 	keepFirst(b.nodes, grid);

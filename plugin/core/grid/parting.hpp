@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nodes that are there twice, because a line parts the points on its two sides.
 #pragma once
-#include "core/grid/grid.hpp"
+#include "core/grid/refinement.hpp"
 #include <functional>
 #include <limits>
 
@@ -18,17 +18,14 @@ template <int Dim> struct LeakyCut {
 
 /// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those whose cells the line
 /// cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to the
-/// nodes of layer 0 in their places, and a cell that has only such corners is the one of layer 0: so soil is one body
-/// around the ends of the line.
+/// nodes of layer 0 in their places, and a cell without functions of such nodes is the one of layer 0: so soil is one
+/// body around the ends of the line. In a refined grid hanging nodes are tied within their layer first.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its position.
-	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::vector<LeakyCut<Dim>> leaks)
-	        : own_(std::move(own)), layerAt_(std::move(layerAt)), leaks_(std::move(leaks))
-	{
-		for (const Key node : own_)
-			if (layers_.empty() || layers_.back() != Grid<Dim>::layer(node)) layers_.push_back(Grid<Dim>::layer(node));
-	}
+	/// Keys of the nodes of their own, sorted, all in layers above 0 and not hanging; and the layer of a point by its
+	/// position. Null: the cells are equal.
+	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement = {},
+	        std::vector<LeakyCut<Dim>> leaks = {});
 
 	int                               layerAt(const Vec<Dim>& position) const { return layerAt_(position); }
 	const std::vector<LeakyCut<Dim>>& leaks() const { return leaks_; }
@@ -36,33 +33,34 @@ public:
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 
 	bool isOwn(Key node) const { return find(own_, node) >= 0; }
-	/// The node or cell that stands for one of a layer.
+	/// The node that stands for one of a layer that does not hang.
 	Key nodeFor(Key node) const { return isOwn(node) ? node : in(0, node); }
-	Key cellFor(Key cell) const { return hasOwnCorner(cell) ? cell : in(0, cell); }
+	/// The cell that stands for one of a layer, in a refined grid a leaf or a part of one.
+	Key cellFor(Key cell) const { return hasOwnNode(cell) ? cell : in(0, cell); }
 
-	/// Calls f(cell beyond a face of a cell, layer of the face): the one of its own layer, and from a cell of layer
-	/// 0 without corners of their own those of all layers.
-	template <class F> void forCellsBeyond(Key cell, int axis, bool isAbove, F&& f) const
+	/// Calls f(cell beyond a face, layer of the face) by a cell and the one beyond, in its layer: for the one that stands
+	/// for this, and from a cell of layer 0 without nodes of their own for those of all layers.
+	template <class F> void forSidesBeyond(Key cell, Key beyond, F&& f) const
 	{
-		const Key step = Grid<Dim>::keyStep(axis), beyond = isAbove ? cell + step : cell - step;
 		f(cellFor(beyond), Grid<Dim>::layer(cell));
 		if (Grid<Dim>::layer(cell) > 0) return;
 		for (const int layer : layers_)
-			if (!hasOwnCorner(in(layer, cell)) && hasOwnCorner(in(layer, beyond))) f(in(layer, beyond), layer);
+			if (!hasOwnNode(in(layer, cell)) && hasOwnNode(in(layer, beyond))) f(in(layer, beyond), layer);
 	}
 
 private:
-	bool hasOwnCorner(Key cell) const
+	/// True if a function of an own node is in a cell.
+	bool hasOwnNode(Key cell) const
 	{
-		for (int corner = 0; corner < 1 << Dim; ++corner)
-			if (isOwn(cell + Grid<Dim>::keyOffset(corner))) return true;
-		return false;
+		if (Grid<Dim>::layer(cell) == 0) return false;
+		return find(cells_, refinement_ ? refinement_->leafOf(cell) : cell) >= 0;
 	}
 
-	std::vector<Key>                    own_;
-	std::function<int(const Vec<Dim>&)> layerAt_;
-	std::vector<LeakyCut<Dim>>          leaks_;
-	std::vector<int>                    layers_;
+	std::vector<Key>                       own_, cells_; // cells with own nodes, in a refined grid leaves, sorted
+	std::function<int(const Vec<Dim>&)>    layerAt_;
+	std::shared_ptr<const Refinement<Dim>> refinement_;
+	std::vector<LeakyCut<Dim>>             leaks_;
+	std::vector<int>                       layers_;
 };
 
 } // namespace gimpm

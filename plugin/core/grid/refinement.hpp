@@ -89,14 +89,17 @@ private:
 /// Size of the largest cells [m].
 template <int Dim> double largestCell(const Grid<Dim>& grid) { return grid.size(grid.refinement ? grid.refinement->largest() : 0); }
 
-/// Half of the cell that a position lies in [m]: domains of points there are no larger.
-template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& position)
+/// Size of the cell that a position lies in, of the smallest of several [m].
+template <int Dim> double cellSizeAt(const Grid<Dim>& grid, const Vec<Dim>& position)
 {
-	if (!grid.refinement) return 0.5 * grid.cellSize;
+	if (!grid.refinement) return grid.cellSize;
 	const Vec<Dim> x = (position - grid.origin) / grid.cellSize;
-	if (!(x.array().abs() < Grid<Dim>::indexLimit).all()) return 0.5 * grid.cellSize; // off the grid
-	return 0.5 * grid.size(grid.refinement->levelIn(x, x));
+	if (!(x.array().abs() < Grid<Dim>::indexLimit).all()) return grid.cellSize; // off the grid
+	return grid.size(grid.refinement->levelIn(x, x));
 }
+
+/// Half of the cell that a position lies in [m]: domains of points there are no larger.
+template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& position) { return 0.5 * cellSizeAt(grid, position); }
 
 /// Level of the smallest leaf that a domain lies in.
 template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& position, const Vec<Dim>& halfSize)
@@ -104,19 +107,6 @@ template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& posit
 	if (!grid.refinement) return 0;
 	const Vec<Dim> x = (position - grid.origin) / grid.cellSize, l = halfSize * (1 - overlapTolerance) / grid.cellSize;
 	return grid.refinement->levelIn(x - l, x + l);
-}
-
-/// Calls f(leaf below, leaf above, cell below the face, axis) for the faces between two leaves of a list, sorted; of
-/// two sizes the smaller one's face is meant, and the cell, or the one above it, is part of the larger leaf.
-template <int Dim, class F> void forLeafFaces(const std::vector<Key>& leaves, const Refinement<Dim>& refinement, F&& f)
-{
-	for (const Key leaf : leaves)
-		for (int a = 0; a < Dim; ++a)
-			refinement.forLeavesBeyond(leaf, a, true, [&](Key above, int level) {
-				if (find(leaves, above) < 0) return;
-				// pair at the face's level: the leaf itself, or the part of it below the smaller one
-				f(leaf, above, level < Grid<Dim>::level(leaf) ? above - Grid<Dim>::keyStep(a, level) : leaf, a);
-			});
 }
 
 } // namespace gimpm

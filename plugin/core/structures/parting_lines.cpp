@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/parting_lines.hpp"
 #include "core/grid/nearness.hpp"
+#include "core/grid/refinement.hpp"
 #include "core/structures/from_line.hpp"
 
 namespace gimpm {
@@ -16,9 +17,9 @@ struct Cut {
 /// Beyond a vertex, where soil would make it a tip; to the sides, where there is soil to be parted [cells].
 constexpr double aside = 0.5, reachOfSoil = 0.25;
 
-bool hasSoil(const Vec<2>& position, const PointCloud<2>& cloud, const Grid<2>& grid)
+bool hasSoil(const Vec<2>& position, double cellSize, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	return !areFarFromMaterial<2>({ position }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
+	return !areFarFromMaterial<2>({ position }, { reachOfSoil * cellSize }, cloud, grid)[0];
 }
 
 /// Extends a line beyond its open ends: out of the cells around them, so that a cut ends half a cell to one and a half
@@ -30,8 +31,9 @@ Cut longer(PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 	if (line.isClosed) return cut;
 	for (const int end : { 1, 0 }) {
 		const Vec<2> vertex = end == 0 ? line.positions.front() : line.positions.back(), outwards = line.outwardsAt(end);
-		line.isTip[end]     = hasSoil(vertex + aside * grid.cellSize * outwards, cloud, grid);
-		const Vec<2> beyond = vertex + (line.isTip[end] && !line.isBonded ? beyondTip : beyondEnds) * grid.cellSize * outwards;
+		const double h      = cellSizeAt(grid, vertex);
+		line.isTip[end]     = hasSoil(vertex + aside * h * outwards, h, cloud, grid);
+		const Vec<2> beyond = vertex + (line.isTip[end] && !line.isBonded ? beyondTip : beyondEnds) * h * outwards;
 		cut.positions.insert(end == 0 ? cut.positions.begin() : cut.positions.end(), beyond);
 		if (line.isTip[end]) cut.tips.push_back(beyond);
 	}
@@ -42,17 +44,18 @@ Cut longer(PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 bool isBetween(const PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	constexpr double    onLine = 0.1; // [cells]
-	const double        reach  = (aside + reachOfSoil) * grid.cellSize;
+	const double        most   = (aside + reachOfSoil) * largestCell(grid);
 	std::array<bool, 2> found {};
 	Vec<2>              low = line.positions.front(), high = low;
 	for (const Vec<2>& position : line.positions)
 		low = low.cwiseMin(position), high = high.cwiseMax(position);
-	low.array() -= reach, high.array() += reach;
+	low.array() -= most, high.array() += most;
 	for (std::size_t p = 0; p < cloud.size() && !(found[0] && found[1]); ++p) {
 		const Vec<2>& x = cloud.position[p];
 		if ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0) continue;
 		const FromLine at = fromLine(line.positions, x);
-		if (at.away <= reach && !at.isBeyond && std::abs(at.left) > onLine * grid.cellSize) found[at.side > 0] = true;
+		const double   h  = cellSizeAt(grid, x);
+		if (at.away <= (aside + reachOfSoil) * h && !at.isBeyond && std::abs(at.left) > onLine * h) found[at.side > 0] = true;
 	}
 	return found[0] && found[1];
 }
@@ -76,24 +79,30 @@ bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double 
 
 bool isWithin(const Vec<2>& position, const Vec<2>& middle, double half) { return (position - middle).cwiseAbs().maxCoeff() < half; }
 
-/// The nodes whose four cells a line cuts in two.
-std::vector<Index<2>> nodesCut(const Cut& line, const Grid<2>& grid)
+/// The nodes whose cells a line cuts in two: those of all levels that do not hang, in layer 0.
+std::vector<Key> nodesCut(const Cut& line, const Grid<2>& grid)
 {
-	const double          around = (1 - 1e-6) * grid.cellSize;
-	std::vector<Index<2>> nodes;
-	for (std::size_t i = 0; i + 1 < line.positions.size(); ++i) {
-		const Vec<2>&  from = line.positions[i], &to = line.positions[i + 1];
-		const Index<2> low  = ((from.cwiseMin(to) - grid.origin) / grid.cellSize).array().floor().cast<int>() - 1;
-		const Index<2> high = ((from.cwiseMax(to) - grid.origin) / grid.cellSize).array().ceil().cast<int>() + 1;
-		for (int x = low[0]; x <= high[0]; ++x)
-			for (int y = low[1]; y <= high[1]; ++y) {
-				const Index<2> node(x, y);
-				const Vec<2>   middle = grid.nodePosition(node);
-				const auto     ends   = [&](const Vec<2>& tip) { return isWithin(tip, middle, around); };
-				if (!crosses(from, to, middle, around) || std::any_of(line.tips.begin(), line.tips.end(), ends)) continue;
-				if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
-			}
+	std::vector<Key> nodes;
+	for (int level = 0; level <= (grid.refinement ? grid.refinement->largest() : 0); ++level) {
+		const double around = (1 - 1e-6) * grid.size(level);
+		const auto   isCut  = [&](const Index<2>& node, const Vec<2>& from, const Vec<2>& to) {
+                        const Vec<2> middle = grid.nodePosition(node);
+                        const auto   ends   = [&](const Vec<2>& tip) { return isWithin(tip, middle, around); };
+                        if (!crosses(from, to, middle, around) || std::any_of(line.tips.begin(), line.tips.end(), ends)) return false;
+                        return !grid.refinement || grid.refinement->largestAt(node) == level;
+		};
+		for (std::size_t i = 0; i + 1 < line.positions.size(); ++i) {
+			const Vec<2>&  from = line.positions[i], &to = line.positions[i + 1];
+			const Index<2> low  = ((from.cwiseMin(to) - grid.origin) / grid.size(level)).array().floor().cast<int>() - 1;
+			const Index<2> high = ((from.cwiseMax(to) - grid.origin) / grid.size(level)).array().ceil().cast<int>() + 1;
+			for (int x = low[0]; x <= high[0]; ++x)
+				for (int y = low[1]; y <= high[1]; ++y)
+					if (const Index<2> node = Index<2>(x, y) * (1 << level); isCut(node, from, to))
+						nodes.push_back(Grid<2>::key(node, level));
+		}
 	}
+	std::sort(nodes.begin(), nodes.end());
+	nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 	return nodes;
 }
 
@@ -101,13 +110,18 @@ std::vector<Index<2>> nodesCut(const Cut& line, const Grid<2>& grid)
 class LayerAt {
 public:
 	LayerAt(std::vector<Cut> lines, std::vector<Key> own, const Grid<2>& grid)
-	        : lines_(std::move(lines)), own_(std::move(own)), origin_(grid.origin), cellSize_(grid.cellSize)
+	        : lines_(std::move(lines))
+	        , own_(std::move(own))
+	        , origin_(grid.origin)
+	        , cellSize_(grid.cellSize)
+	        , largest_(grid.refinement ? grid.refinement->largest() : 0)
 	{
 		low_ = Vec<2>::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
 		for (const auto& line : lines_)
 			for (const Vec<2>& position : line.positions)
 				low_ = low_.cwiseMin(position), high_ = high_.cwiseMax(position);
-		low_.array() -= 4 * cellSize_, high_.array() += 4 * cellSize_;
+		const double margin = 4 * grid.size(largest_);
+		low_.array() -= margin, high_.array() += margin;
 	}
 	int operator()(const Vec<2>& position) const
 	{
@@ -118,14 +132,16 @@ public:
 	}
 
 private:
-	/// True if own cells are as near as domains reach: one cell and half of one.
+	/// True if own nodes are as near as domains reach: one cell and half of one.
 	bool isNearOwn(const Vec<2>& position, int layer) const
 	{
-		const Vec<2>   x   = (position - origin_) / cellSize_;
-		const Index<2> low = (x.array() - 1.5).ceil().cast<int>(), high = (x.array() + 1.5).floor().cast<int>();
-		for (int i = low[0]; i <= high[0]; ++i)
-			for (int j = low[1]; j <= high[1]; ++j)
-				if (find(own_, Grid<2>::key({ i, j }, 0, layer)) >= 0) return true;
+		for (int level = 0; level <= largest_; ++level) {
+			const Vec<2>   x   = (position - origin_) / (cellSize_ * (1 << level));
+			const Index<2> low = (x.array() - 1.5).ceil().cast<int>(), high = (x.array() + 1.5).floor().cast<int>();
+			for (int i = low[0]; i <= high[0]; ++i)
+				for (int j = low[1]; j <= high[1]; ++j)
+					if (find(own_, Grid<2>::key(Index<2>(i, j) * (1 << level), level, layer)) >= 0) return true;
+		}
 		return false;
 	}
 
@@ -133,6 +149,7 @@ private:
 	std::vector<Key> own_;
 	Vec<2>           origin_, low_, high_;
 	double           cellSize_;
+	int              largest_; // level
 };
 
 /// Where water passes a cut: through the line if it leaks, and ahead of its tips.
@@ -154,12 +171,14 @@ int sideOf(const PartingLine& line, const Vec<2>& position, double reach)
 	return at.side > 0 ? 1 : -1;
 }
 
-bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)
+bool areApart(const std::vector<Key>& nodes, const std::vector<Key>& others)
 {
 	constexpr int near = 3;
-	for (const auto& node : nodes)
-		for (const auto& other : others)
-			if ((node - other).cwiseAbs().maxCoeff() <= near) return false;
+	for (const Key node : nodes)
+		for (const Key other : others)
+			if ((Grid<2>::index(node) - Grid<2>::index(other)).cwiseAbs().maxCoeff() <= near
+			            << std::max(Grid<2>::level(node), Grid<2>::level(other)))
+				return false;
 	return true;
 }
 
@@ -199,8 +218,7 @@ std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vect
 void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid<2>& grid)
 {
 	std::vector<Cut>         cuts;
-	std::vector<Index<2>>    taken;
-	std::vector<Key>         own;
+	std::vector<Key>         taken, own;
 	std::vector<LeakyCut<2>> leaks;
 	lookBetween(lines, cloud, grid);
 	for (PartingLine* line : lines) {
@@ -209,8 +227,8 @@ void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid
 		const auto nodes = nodesCut(cut, grid);
 		if (nodes.empty() || !areApart(nodes, taken)) continue;
 		line->layer = cut.layer = int(cuts.size()) + 1;
-		for (const Index<2>& node : nodes)
-			own.push_back(Grid<2>::key(node, 0, cut.layer));
+		for (const Key node : nodes)
+			own.push_back(Parting<2>::in(cut.layer, node));
 		taken.insert(taken.end(), nodes.begin(), nodes.end());
 		addLeaks(*line, cut, leaks);
 		cuts.push_back(std::move(cut));
@@ -219,7 +237,7 @@ void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid
 	cloud.layer.clear();
 	if (cuts.empty()) return;
 	std::sort(own.begin(), own.end());
-	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(cuts), own, grid), std::move(leaks));
+	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(cuts), own, grid), grid.refinement, std::move(leaks));
 	cloud.layer.resize(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p)
 		cloud.layer[p] = grid.parting->layerAt(cloud.position[p]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/rigid_lines.hpp"
+#include "core/grid/refinement.hpp"
 #include <algorithm>
 #include <optional>
 
@@ -11,16 +12,28 @@ struct Piece {
 	int                   body;
 };
 
-std::optional<Piece> pieceOf(const RigidBody<2>& body, int number, double cellSize)
+/// Size of the largest cell along a segment, looked for every half of a cell [m].
+double largestAlong(const std::array<Vec<2>, 2>& ends, const Grid<2>& grid)
+{
+	const Vec<2> along   = ends[1] - ends[0];
+	double       largest = cellSizeAt(grid, ends[1]);
+	for (double at = 0, h = 0; grid.refinement && at < along.norm(); at += h / 2)
+		h = cellSizeAt<2>(grid, ends[0] + at * along.normalized()), largest = std::max(largest, h);
+	return largest;
+}
+
+std::optional<Piece> pieceOf(const RigidBody<2>& body, int number, const Grid<2>& grid)
 {
 	const auto& shape = body.shape;
 	if (shape.kind == RigidKind::sheet && shape.isTwoSided)
 		return Piece { { body.begin.inSpace(shape.corners[0]), body.begin.inSpace(shape.corners[1]) }, number };
-	if (shape.kind != RigidKind::block || body.thickness() >= cellSize * (1 - 1e-9)) return std::nullopt;
+	if (shape.kind != RigidKind::block) return std::nullopt;
 	int longest;
 	shape.halfSize.maxCoeff(&longest);
 	const Vec<2> half = shape.halfSize[longest] * Vec<2>::Unit(longest);
-	return Piece { { body.begin.inSpace(-half), body.begin.inSpace(half) }, number };
+	const Piece  piece { { body.begin.inSpace(-half), body.begin.inSpace(half) }, number };
+	if (body.thickness() >= largestAlong(piece.ends, grid) * (1 - 1e-9)) return std::nullopt;
+	return piece;
 }
 
 /// Ends of pieces joined to lines.
@@ -77,12 +90,12 @@ private:
 
 } // namespace
 
-std::vector<RigidLine> linesOf(const std::vector<RigidBody<2>>& bodies, double cellSize)
+std::vector<RigidLine> linesOf(const std::vector<RigidBody<2>>& bodies, const Grid<2>& grid)
 {
 	std::vector<Piece> pieces;
 	for (int b = 0; b < int(bodies.size()); ++b)
-		if (const auto piece = pieceOf(bodies[b], b, cellSize)) pieces.push_back(*piece);
-	return Chains(std::move(pieces), cellSize).lines();
+		if (const auto piece = pieceOf(bodies[b], b, grid)) pieces.push_back(*piece);
+	return Chains(std::move(pieces), grid.cellSize).lines();
 }
 
 } // namespace gimpm

@@ -55,21 +55,12 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 				}
 }
 
-/// True if there is no cell beyond a face, on either side of a line that parts the body there.
-template <int Dim> bool isParted(Key cell, int axis, bool isAbove, const std::vector<Key>& populated, const Grid<Dim>& grid)
+/// True if a cell stands for the neighbour of a cell, on either side of a line that parts the body there.
+template <int Dim> bool isPopulated(Key cell, Key neighbour, const std::vector<Key>& populated, const Grid<Dim>& grid)
 {
 	bool isThere = false;
-	grid.parting->forCellsBeyond(cell, axis, isAbove, [&](Key beyond, int) { isThere |= contains(populated, beyond); });
-	return !isThere;
-}
-
-/// Calls f(cell above a face of a cell, cell below the face in the layer and of the level of its nodes).
-template <int Dim, class F> void forCellsAbove(Key cell, int axis, const Grid<Dim>& grid, F&& f)
-{
-	if (grid.parting) return grid.parting->forCellsBeyond(cell, axis, true, [&](Key above, int layer) { f(above, Parting<Dim>::in(layer, cell)); });
-	forNeighbours(cell, axis, true, grid, [&](Key above, int level) {
-		f(above, level < Grid<Dim>::level(cell) ? above - Grid<Dim>::keyStep(axis, level) : cell);
-	});
+	forSidesOf(cell, neighbour, grid, [&](Key beyond, int) { isThere |= contains(populated, beyond); });
+	return isThere;
 }
 
 /// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by
@@ -86,8 +77,10 @@ template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 
 template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
 {
-	const auto leafOf = [&](Key cell) { return grid.refinement ? grid.refinement->leafOf(cell) : grid.parting ? grid.parting->cellFor(cell) : cell; };
-	const auto number = [&](Key cell) { return position(basis.populatedLeaves(), leafOf(cell)); };
+	const auto number = [&](Key cell) {
+		if (grid.parting) cell = grid.parting->cellFor(cell);
+		return position(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(cell) : cell);
+	};
 	return { number(face.lower), number(grid.first(face.lower + Grid<Dim>::keyStep(face.axis, face.level()))) };
 }
 
@@ -99,9 +92,8 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 		bool             is = false;
 		for (int a = 0; a < Dim && !is; ++a)
 			for (const bool isAbove : { false, true }) {
-				if (grid.parting && !isParted(cell, a, isAbove, populated, grid)) continue;
 				forNeighbours(cell, a, isAbove, grid, [&](Key neighbour, int level) {
-					if (is || contains(populated, neighbour)) return;
+					if (is || isPopulated(cell, neighbour, populated, grid)) return;
 					Index<Dim> face
 					        = level < Grid<Dim>::level(cell) ? Grid<Dim>::index(neighbour) : i; // cell beside the face, on its lower corner
 					face[a] = isAbove ? i[a] + (1 << Grid<Dim>::level(cell)) : i[a];

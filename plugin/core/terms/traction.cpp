@@ -49,8 +49,8 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		if (grid.parting) return find(populated, grid.parting->cellFor(Grid<Dim>::key(cell, 0, grid.parting->layerAt(x)))) >= 0;
-		const Key key = Grid<Dim>::key(grid.first(cell), 0, layer);
+		Key key = Grid<Dim>::key(grid.first(cell), 0, grid.parting ? grid.parting->layerAt(x) : layer);
+		if (grid.parting) key = grid.parting->cellFor(key);
 		return find(populated, grid.refinement ? grid.refinement->leafOf(key) : key) >= 0;
 	};
 	double outside = 0; // area with material outside only, less that with material inside only

@@ -219,7 +219,7 @@ private:
 	{
 		if (!body_.parts || body_.shape.kind != RigidKind::sheet || gap <= 0) return false;
 		const auto behind = soil.from(onBody, -normal, 0);
-		return behind && gap + behind->gap <= deepestInBody * h_;
+		return behind && gap + behind->gap <= deepestInBody * cellSizeAt(step_.grid, onBody);
 	}
 
 	/// Attaches it to the soil. False behind a wall, where there is none.

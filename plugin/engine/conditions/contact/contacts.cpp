@@ -275,7 +275,7 @@ template <int Dim> void Contacts<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm
 {
 	if constexpr (Dim == 2) {
 		advanceTo(end);
-		auto                        lines = gimpm::linesOf(system->bodies, model.grid.cellSize);
+		auto                        lines = gimpm::linesOf(system->bodies, model.grid);
 		vector<gimpm::PartingLine*> those;
 		for (auto& line : lines)
 			those.push_back(&line);

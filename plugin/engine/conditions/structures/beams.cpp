@@ -80,6 +80,7 @@ namespace {
 	{
 		for (const Listed& listed : analysis.conditions())
 			if (string(listed.list) == "contacts") return listed.name();
+		if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
 		return obstacleToParting(analysis);
 	}
 

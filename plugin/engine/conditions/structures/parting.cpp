@@ -7,7 +7,6 @@ namespace yade {
 string obstacleToParting(const Analysis& analysis)
 {
 	if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
-	if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
 	if (analysis.nonlocalLength > 0) return "nonlocalLength";
 	if (analysis.pressureRelaxation) return "pressureRelaxation";
 	if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";
