@@ -2,6 +2,7 @@
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
 #include "core/structures/rigid_lines.hpp"
+#include "core/structures/rigid_sheets.hpp"
 #include "core/terms/contact/contact.hpp"
 #include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
@@ -74,10 +75,9 @@ namespace {
 	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
 
 	// Features that do not go with soil parted by thin bodies; empty: nothing.
-	string cannotPart(const Analysis& analysis, int processes, int dim)
+	string cannotPart(const Analysis& analysis, int processes)
 	{
-		if (dim == 3) return "MpmGrid.dim = 3";
-		if (processes > 1) return "several processes";
+			if (processes > 1) return "several processes";
 		if (analysis.isExplicit()) return "explicit steps";
 		for (const Listed& listed : analysis.conditions())
 			if (listed.condition->partsBodies() || dynamic_cast<const MpmBeam*>(listed.condition.get())) return listed.name();
@@ -236,7 +236,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
 	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
 	cellSize = model.grid.cellSize, scene = &around.scene;
-	inItsWay = cannotPart(around.analysis, model.processes->size(), Dim);
+	inItsWay = cannotPart(around.analysis, model.processes->size());
 	inTime   = around.analysis.isDynamic();
 	for (const auto& material : model.materials)
 		soil.density = std::max(soil.density, material.density);
@@ -273,19 +273,24 @@ template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, co
 
 template <int Dim> void Contacts<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model)
 {
-	if constexpr (Dim == 2) {
-		advanceTo(end);
-		auto                        lines = gimpm::linesOf(system->bodies, model.grid);
-		vector<gimpm::PartingLine*> those;
-		for (auto& line : lines)
-			those.push_back(&line);
-		if (inItsWay.empty()) gimpm::partSoil(those, cloud, model.grid);
-		else
-			gimpm::lookBetween(those, cloud, model.grid);
-		for (const auto& line : lines)
-			for (const int body : line.bodies)
-				system->bodies[body].isBetween = line.isBetween, system->bodies[body].parts = line.layer > 0;
-	}
+	advanceTo(end);
+	if constexpr (Dim == 2) partBy(gimpm::linesOf(system->bodies, model.grid), cloud, model.grid);
+	else
+		partBy(gimpm::sheetsOf(system->bodies, model.grid), cloud, model.grid);
+}
+
+// By lines or surfaces of thin bodies.
+template <int Dim> template <class Surface> void Contacts<Dim>::partBy(vector<Surface> surfaces, gimpm::PointCloud<Dim>& cloud, gimpm::Grid<Dim>& grid)
+{
+	vector<std::conditional_t<Dim == 2, gimpm::PartingLine, gimpm::PartingSheet>*> those;
+	for (auto& surface : surfaces)
+		those.push_back(&surface);
+	if (inItsWay.empty()) gimpm::partSoil(those, cloud, grid);
+	else
+		gimpm::lookBetween(those, cloud, grid);
+	for (const auto& surface : surfaces)
+		for (const int body : surface.bodies)
+			system->bodies[body].isBetween = surface.isBetween, system->bodies[body].parts = surface.layer > 0;
 }
 
 template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>& model, gimpm::Load<Dim>& load)

@@ -92,6 +92,8 @@ private:
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
 
+	template <class Surface> void partBy(vector<Surface> surfaces, gimpm::PointCloud<Dim>&, gimpm::Grid<Dim>&);
+
 	vector<shared_ptr<MpmContact>>        given;
 	const Scene*                          scene = nullptr; // of its bodies, once it has any
 	shared_ptr<gimpm::ContactSystem<Dim>> system;          // its terms refer to it
