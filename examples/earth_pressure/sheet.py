@@ -20,7 +20,8 @@ from options import compared, readOptions
 from style import plt
 
 options = readOptions('Both sides of a thin rigid wall.',
-        cells=(20, 'over the height of the wall'),
+        cells=(20, 'over the height of the wall, the smallest ones'),
+        halvings=(0, 'of larger cells within half the height of the wall'),
         wall=(0., 'friction of the wall [degrees]'),
         toe=(0., 'of the wall above a line of the grid [cells]'),
         turn=(0.01, 'of the wall about its toe [rad]'),
@@ -30,7 +31,8 @@ L, D, h = 4 * H, H / 2, H / options.cells
 toe = options.toe * h
 O.materials.append(MpmMohrCoulombMat(young=1e9, poisson=0.3, density=gamma / 10, cohesion=100, frictionAngle=phi, dilationAngle=phi, label='sand'))
 O.materials.append(FrictMat(frictionAngle=delta, label='wall'))
-grid = MpmGrid(cellSize=h)
+grid = MpmGrid(cellSize=2**options.halvings * h)
+if options.halvings: grid.refinements = [MpmRefinement(min=(-H / 2, -H / 2, -inf), max=(H / 2, inf, inf), halvings=options.halvings)]
 O.bodies.append(mpm.fill(mpm.polygon([(-L, -D), (L, -D), (L, H), (-L, H)]), grid, pointsPerCell=2, material='sand'))
 held = [MpmBoundary(max=(-L, inf, inf), fix='x'), MpmBoundary(min=(L, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -D, inf), fix='xy')]
 solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=held, fBar=True, verbosity=0)
@@ -69,7 +71,7 @@ def limits(side):
 
 
 coulomb, lancellotta = limits(-1)[0], limits(1)[1]
-where = f'{"a smooth" if not delta else "a rough"} sheet, {options.cells} cells over the height' + (f', toe {options.toe:g} cells above a line' if options.toe else '')
+where = f'{"a smooth" if not delta else "a rough"} sheet, {options.cells} cells over the height' + (f', halved {options.halvings} times' if options.halvings else '') + (f', toe {options.toe:g} cells above a line' if options.toe else '')
 for name, K, theory, source in ('active', active, coulomb, 'Coulomb 1776'), ('passive', passive, lancellotta, 'Lancellotta 2002'):
 	print(f'{name}: K = {K:.4f}, {source} {theory:.4f} ({100 * (K / theory - 1):+.1f} %)')
 	compared(f'K, {name}, {where}', K, theory, source if delta else 'Rankine 1857')

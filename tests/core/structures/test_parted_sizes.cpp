@@ -28,18 +28,23 @@ namespace {
 		return bodies;
 	}
 
-	/// A block of points of any size that a plate goes into.
+	/// A block of points of any size that a plate goes into, beside them.
 	template <int Dim> struct Sides {
 		Grid<Dim>       grid;
-		PointCloud<Dim> cloud = scattered<Dim>(Dim == 2 ? 600 : 3000);
+		PointCloud<Dim> cloud;
 		Vec<2>          head, along;
 		CloudBasis<Dim> basis;
 		int             sign = 1; ///< of the side with the layer of its own
 
 		Sides(const Grid<Dim>& cells, const Vec<2>& from, const Vec<2>& to) : grid(cells), head(from), along(to - from)
 		{
-			for (auto& half : cloud.halfSize)
-				if (!grid.refinement) half = half.cwiseMin(grid.cellSize / 2);
+			const auto     all  = scattered<Dim>(Dim == 2 ? 900 : 6000);
+			const Vec<2>   side = Vec<2>(-along[1], along[0]).normalized();
+			for (std::size_t p = 0; p < all.size(); ++p) {
+				const Vec<Dim> half = all.halfSize[p].cwiseMin(largestHalf(grid, all.position[p]));
+				const double   away = std::abs(side.dot(all.position[p].template head<2>() - head));
+				if (away > side.cwiseAbs().dot(half.template head<2>())) addPoint<Dim>(cloud, all.position[p], half);
+			}
 			const auto bodies = plate<Dim>(from, to);
 			if constexpr (Dim == 2) part(linesOf(bodies, grid));
 			else
