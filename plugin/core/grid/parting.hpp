@@ -2,6 +2,7 @@
 // Nodes that are there twice, because a line parts the points on its two sides.
 #pragma once
 #include "core/grid/refinement.hpp"
+#include <array>
 #include <functional>
 #include <limits>
 
@@ -11,9 +12,9 @@ namespace gimpm {
 template <int Dim> struct LeakyCut {
 	static constexpr double asSoil = std::numeric_limits<double>::infinity(); ///< leakage ahead of a tip, where soil is whole
 
-	Vec<Dim> from, to;
-	int      layer;
-	double   leakage; ///< volume that passes by area and time, over the difference of the pressures [m3/(N s)]
+	std::array<Vec<Dim>, Dim> corners;
+	int                       layer;
+	double                    leakage; ///< volume that passes by area and time, over the difference of the pressures [m3/(N s)]
 };
 
 /// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those whose cells the line

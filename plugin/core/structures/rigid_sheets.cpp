@@ -10,9 +10,9 @@ namespace {
 using Facet = std::array<int, 3>;
 
 /// Facets of bodies over vertices that are there once.
-class Facets {
+class JoinedFacets {
 public:
-	explicit Facets(double same) : same_(same) { }
+	explicit JoinedFacets(double same) : same_(same) { }
 
 	void add(const std::array<Vec3, 3>& corners, int body)
 	{
@@ -37,7 +37,7 @@ private:
 };
 
 /// Size of the largest cell at the corners and the centre of a rectangle [m].
-double largestAt(const std::array<Vec3, 4>& corners, const Grid<3>& grid)
+double largestCellAt(const std::array<Vec3, 4>& corners, const Grid<3>& grid)
 {
 	double largest = cellSizeAt<3>(grid, (corners[0] + corners[2]) / 2);
 	for (const Vec3& corner : corners)
@@ -45,7 +45,7 @@ double largestAt(const std::array<Vec3, 4>& corners, const Grid<3>& grid)
 	return largest;
 }
 
-void add(Facets& to, const RigidBody<3>& body, int number, const Grid<3>& grid)
+void addFacetsOf(JoinedFacets& to, const RigidBody<3>& body, int number, const Grid<3>& grid)
 {
 	const auto& shape = body.shape;
 	if (shape.kind == RigidKind::sheet && shape.isTwoSided && body.nodes == 0)
@@ -55,7 +55,7 @@ void add(Facets& to, const RigidBody<3>& body, int number, const Grid<3>& grid)
 	shape.halfSize.minCoeff(&thin);
 	const Vec3                a = shape.halfSize[(thin + 1) % 3] * Vec3::Unit((thin + 1) % 3), b = shape.halfSize[(thin + 2) % 3] * Vec3::Unit((thin + 2) % 3);
 	const std::array<Vec3, 4> x { body.begin.inSpace(-a - b), body.begin.inSpace(a - b), body.begin.inSpace(a + b), body.begin.inSpace(b - a) };
-	if (body.thickness() >= largestAt(x, grid) * (1 - 1e-9)) return;
+	if (body.thickness() >= largestCellAt(x, grid) * (1 - 1e-9)) return;
 	to.add({ x[0], x[1], x[2] }, number);
 	to.add({ x[0], x[2], x[3] }, number);
 }
@@ -63,7 +63,7 @@ void add(Facets& to, const RigidBody<3>& body, int number, const Grid<3>& grid)
 /// Facets joined to sheets.
 class Sheets {
 public:
-	explicit Sheets(const Facets& facets) : all_(facets), isTaken_(facets.facets.size(), false)
+	explicit Sheets(const JoinedFacets& facets) : all_(facets), isTaken_(facets.facets.size(), false)
 	{
 		for (int f = 0; f < int(all_.facets.size()); ++f)
 			for (int i = 0; i < 3; ++i)
@@ -130,7 +130,7 @@ private:
 		sheet.prepare();
 	}
 
-	const Facets&                                  all_;
+	const JoinedFacets&                            all_;
 	std::vector<bool>                              isTaken_;
 	std::map<std::array<int, 2>, std::vector<int>> at_;
 };
@@ -149,9 +149,9 @@ bool hasTwoSides(const PartingSheet& sheet)
 
 std::vector<RigidSheet> sheetsOf(const std::vector<RigidBody<3>>& bodies, const Grid<3>& grid)
 {
-	Facets facets(1e-6 * grid.cellSize);
+	JoinedFacets facets(1e-6 * grid.cellSize);
 	for (int b = 0; b < int(bodies.size()); ++b)
-		add(facets, bodies[b], b, grid);
+		addFacetsOf(facets, bodies[b], b, grid);
 	auto sheets = Sheets(facets).sheets();
 	sheets.erase(std::remove_if(sheets.begin(), sheets.end(), [](const auto& sheet) { return !hasTwoSides(sheet); }), sheets.end());
 	return sheets;

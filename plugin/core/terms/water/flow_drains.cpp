@@ -3,6 +3,7 @@
 #include "core/terms/attach_surface.hpp"
 #include "core/terms/water/flow.hpp"
 #include <algorithm>
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -128,20 +129,21 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 
 template <int Dim> void Flow<Dim>::attachPassages(const StepContext<Dim>& step)
 {
-	if constexpr (Dim == 2) {
-		if (!step.grid.parting) return;
-		for (const LeakyCut<2>& cut : step.grid.parting->leaks()) {
-			Surface<2> line;
-			line.vertices = { cut.from, cut.to }, line.pieces = { { 0, 1 } };
-			for (const auto& [x, area, normal, middle] : quadratureOf(line, step.grid)) {
-				const auto left = attach<2>(x, step.basis, step.grid, 0), right = attach<2>(x, step.basis, step.grid, cut.layer);
-				if (!left || !right || left->node == right->node) continue;
-				const int    cell    = gimpm::find(step.basis.populatedLeaves(), left->leaf(step.grid));
-				const double leakage = cut.leakage == LeakyCut<2>::asSoil
-				        ? conductanceOfSoil * conductivityAlong(cell, normal.normalized()) / step.grid.size(left->level)
-				        : cut.leakage;
-				passages_.push_back({ { *left, *right }, water_.duration * area * leakage });
-			}
+	if (!step.grid.parting) return;
+	for (const LeakyCut<Dim>& cut : step.grid.parting->leaks()) {
+		Surface<Dim> surface;
+		surface.vertices.assign(cut.corners.begin(), cut.corners.end());
+		surface.pieces.emplace_back();
+		std::iota(surface.pieces[0].begin(), surface.pieces[0].end(), 0);
+		surface.refine(pieceLimit * step.grid.cellSize);
+		for (const auto& [x, area, normal, middle] : quadratureOf(surface, step.grid)) {
+			const auto left = attach<Dim>(x, step.basis, step.grid, 0), right = attach<Dim>(x, step.basis, step.grid, cut.layer);
+			if (!left || !right || left->node == right->node) continue;
+			const int    cell    = gimpm::find(step.basis.populatedLeaves(), left->leaf(step.grid));
+			const double leakage = cut.leakage == LeakyCut<Dim>::asSoil
+			        ? conductanceOfSoil * conductivityAlong(cell, normal.normalized()) / step.grid.size(left->level)
+			        : cut.leakage;
+			passages_.push_back({ { *left, *right }, water_.duration * area * leakage });
 		}
 	}
 }
