@@ -43,7 +43,8 @@ namespace {
 			for (std::size_t p = 0; p < all.size(); ++p) {
 				const Vec<Dim> half = all.halfSize[p].cwiseMin(largestHalf(grid, all.position[p]));
 				const double   away = std::abs(side.dot(all.position[p].template head<2>() - head));
-				if (away > side.cwiseAbs().dot(half.template head<2>())) addPoint<Dim>(cloud, all.position[p], half);
+				const bool     isBelow = all.position[p][1] + half[1] < std::min(from[1], to[1]);
+				if (isBelow || away > side.cwiseAbs().dot(half.template head<2>())) addPoint<Dim>(cloud, all.position[p], half);
 			}
 			const auto bodies = plate<Dim>(from, to);
 			if constexpr (Dim == 2) part(linesOf(bodies, grid));
