@@ -90,36 +90,33 @@ struct BorderEdge {
 	bool   isTip;    ///< there is soil beyond it
 };
 
-bool hasSoilBeyond(const Vec3& from, const Vec3& to, const Vec3& outwards, const PointCloud<3>& cloud, const Grid<3>& grid)
+/// The edge from a vertex to another one of a facet, by what is beyond it at positions no farther apart than the smallest
+/// cells. A cut goes on by the smallest of the cells along an edge where there is soil, so that none ends farther beyond.
+BorderEdge borderEdge(const PartingSheet& sheet, const std::array<int, 3>& facet, int i, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
+	const Triangle      x = cornersOf(sheet, { facet[i], facet[(i + 1) % 3], facet[(i + 2) % 3] });
+	const Vec3          along = x[1] - x[0], outwards = along.cross(normalTo(x)).normalized();
+	const int           parts = int(std::min(1e4, std::ceil(along.norm() / grid.cellSize)));
 	std::vector<Vec3>   positions;
-	std::vector<double> reach;
-	const double        length = (to - from).norm();
-	const int           parts  = int(std::min(1e4, std::ceil(length / grid.cellSize)));
-	for (int i = 0; i < parts; ++i) {
-		const Vec3   on = from + (i + 0.5) / parts * (to - from);
-		const double h  = cellSizeAt(grid, on);
-		positions.push_back(on + asideOfCut * h * outwards);
-		reach.push_back(reachBesideCut * h);
+	std::vector<double> reach, size;
+	for (int part = 0; part < parts; ++part) {
+		const Vec3 on = x[0] + (part + 0.5) / parts * along;
+		size.push_back(cellSizeAt(grid, on));
+		positions.push_back(on + asideOfCut * size.back() * outwards);
+		reach.push_back(reachBesideCut * size.back());
 	}
 	const auto isFar = areFarFromMaterial<3>(positions, reach, cloud, grid);
-	return std::any_of(isFar.begin(), isFar.end(), [](std::int64_t is) { return !is; });
+	const bool isTip = std::any_of(isFar.begin(), isFar.end(), [](std::int64_t is) { return !is; });
+	const auto [smallest, largest] = std::minmax_element(size.begin(), size.end());
+	return { facet[i], facet[(i + 1) % 3], outwards, isTip ? beyondTip * *smallest : beyondEnds * *largest, isTip };
 }
 
 std::vector<BorderEdge> borderOf(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
 	std::vector<BorderEdge> border;
 	for (std::size_t f = 0; f < sheet.facets.size(); ++f)
-		for (int i = 0; i < 3; ++i) {
-			if (!sheet.isBorder[f][i]) continue;
-			const auto&  facet = sheet.facets[f];
-			const int    a = facet[i], b = facet[(i + 1) % 3];
-			const Vec3 & from = sheet.positions[a], &to = sheet.positions[b];
-			const Vec3   outwards = (to - from).cross(normalTo({ from, to, sheet.positions[facet[(i + 2) % 3]] })).normalized();
-			const bool   isTip    = hasSoilBeyond(from, to, outwards, cloud, grid);
-			const double h        = std::max(cellSizeAt(grid, from), cellSizeAt(grid, to));
-			border.push_back({ a, b, outwards, (isTip ? beyondTip : beyondEnds) * h, isTip });
-		}
+		for (int i = 0; i < 3; ++i)
+			if (sheet.isBorder[f][i]) border.push_back(borderEdge(sheet, sheet.facets[f], i, cloud, grid));
 	return border;
 }
 

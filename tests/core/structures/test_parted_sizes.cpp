@@ -38,7 +38,7 @@ namespace {
 
 		Sides(const Grid<Dim>& cells, const Vec<2>& from, const Vec<2>& to) : grid(cells), head(from), along(to - from)
 		{
-			const auto     all  = scattered<Dim>(Dim == 2 ? 900 : 6000);
+			const auto     all  = scattered<Dim>(Dim == 2 ? 3000 : 6000);
 			const Vec<2>   side = Vec<2>(-along[1], along[0]).normalized();
 			for (std::size_t p = 0; p < all.size(); ++p) {
 				const Vec<Dim> half = all.halfSize[p].cwiseMin(largestHalf(grid, all.position[p]));
