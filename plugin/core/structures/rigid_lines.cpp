@@ -65,7 +65,7 @@ private:
 	/// Adds pieces at its last vertex, as long as there is one.
 	void lengthen(RigidLine& line)
 	{
-		for (int next; (next = pieceAt(line.positions.back())) >= 0;) {
+		for (int next; (next = pieceAfter(line)) >= 0;) {
 			const auto& ends = pieces_[next].ends;
 			isTaken_[next]   = true;
 			line.positions.push_back(ends[areSame(ends[0], line.positions.back())]);
@@ -73,14 +73,22 @@ private:
 		}
 	}
 
-	/// The only free piece at a vertex where two end; -1: there is none.
-	int pieceAt(const Vec<2>& vertex) const
+	/// The free piece at the last vertex: the only other one there, or one that goes straight on; -1: there is none.
+	int pieceAfter(const RigidLine& line) const
 	{
-		int count = 0, found = -1;
+		constexpr double straight = 0.9998; // cosine of a degree
+		const Vec<2>&    vertex   = line.positions.back();
+		const Vec<2>     along    = (vertex - line.positions[line.positions.size() - 2]).normalized();
+		int              count = 0, only = -1, ahead = -1;
 		for (std::size_t i = 0; i < pieces_.size(); ++i)
-			for (const Vec<2>& end : pieces_[i].ends)
-				if (areSame(end, vertex)) ++count, found = isTaken_[i] ? found : int(i);
-		return count == 2 ? found : -1;
+			for (int end = 0; end < 2; ++end) {
+				if (!areSame(pieces_[i].ends[end], vertex)) continue;
+				++count;
+				if (isTaken_[i]) continue;
+				only = int(i);
+				if ((pieces_[i].ends[1 - end] - vertex).normalized().dot(along) > straight) ahead = int(i);
+			}
+		return count == 2 ? only : ahead;
 	}
 
 	std::vector<Piece> pieces_;

@@ -86,7 +86,7 @@ private:
 	/// True if a facet runs along its edge i from the lower vertex to the higher one.
 	static bool isUpwards(const Facet& facet, int i) { return facet[i] < facet[(i + 1) % 3]; }
 
-	/// All facets that are joined to one by edges that two share, turned as that one is.
+	/// All facets that are joined to one by edges, turned as that one is.
 	RigidSheet sheetFrom(int first)
 	{
 		RigidSheet         sheet;
@@ -95,10 +95,8 @@ private:
 		isTaken_[first] = true;
 		for (std::size_t n = 0; n < facets.size(); ++n)
 			for (int i = 0; i < 3; ++i) {
-				const auto& those = at_.at(edge(facets[n], i));
-				if (those.size() != 2) continue;
-				const int other = those[those[0] == numbers[n]];
-				if (isTaken_[other]) continue;
+				const int other = beyond(numbers[n], edge(facets[n], i));
+				if (other < 0 || isTaken_[other]) continue;
 				isTaken_[other] = true;
 				Facet turned    = all_.facets[other];
 				for (int j = 0; j < 3; ++j)
@@ -111,6 +109,26 @@ private:
 			}
 		number(sheet, facets, numbers);
 		return sheet;
+	}
+
+	/// The facet beyond an edge of another one: the only one there, or one that goes straight on; -1: there is none.
+	int beyond(int facet, const std::array<int, 2>& edge) const
+	{
+		constexpr double straight = 0.9998; // cosine of a degree
+		const auto&      those    = at_.at(edge);
+		if (those.size() == 2) return those[those[0] == facet];
+		for (const int other : those)
+			if (other != facet && awayFrom(edge, facet).dot(awayFrom(edge, other)) < -straight) return other;
+		return -1;
+	}
+
+	/// Direction in the plane of a facet from an edge to its third corner, normal to the edge.
+	Vec3 awayFrom(const std::array<int, 2>& edge, int facet) const
+	{
+		const Facet& corners = all_.facets[facet];
+		const int    third   = corners[0] + corners[1] + corners[2] - edge[0] - edge[1];
+		const Vec3   along = (all_.positions[edge[1]] - all_.positions[edge[0]]).normalized(), off = all_.positions[third] - all_.positions[edge[0]];
+		return (off - off.dot(along) * along).normalized();
 	}
 
 	/// Gives a sheet its facets, over vertices of its own. A vertex where it touches itself without an edge stays one.

@@ -213,11 +213,13 @@ private:
 		to_.points.push_back(made);
 	}
 
+	bool partsSoil() const { return body_.parts && body_.shape.kind == RigidKind::sheet; }
+
 	/// True where a sheet parts soil that is one body: domains through which it goes count on one of its sides, and
 	/// leave a gap on the other one, which is none. What opens then is known from its motion.
 	bool isWithinSoil(const Vec<Dim>& onBody, const Vec<Dim>& normal, double gap, const SoilNear<Dim>& soil) const
 	{
-		if (!body_.parts || body_.shape.kind != RigidKind::sheet || gap <= 0) return false;
+		if (!partsSoil() || gap <= 0) return false;
 		const auto behind = soil.from(onBody, -normal, 0);
 		return behind && gap + behind->gap <= deepestInBody * cellSizeAt(step_.grid, onBody);
 	}
@@ -249,7 +251,7 @@ private:
 		if (!record.touches || record.gap >= 0) return;
 		// A stiffer spring has the force that the softer one had: it has been given no energy.
 		made.gap            = std::max(record.gap, -record.normalForce / made.law.normalStiffness);
-		const double creeps = system_.kind == StepKind::dynamic ? 0 : std::min(0.1, record.creep / h_);
+		const double creeps = system_.kind == StepKind::dynamic || partsSoil() ? 0 : std::min(0.1, record.creep / h_);
 		made.gap += creeps * std::min(0., seen - made.gap);
 	}
 
