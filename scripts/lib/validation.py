@@ -20,7 +20,7 @@ runs = {
         'laboratory': ['laboratory.py'],
         'collapse': ['collapse.py', 'collapse.py --cellSize 0.125'],
         'safety': ['safety.py --scene cut --cells 20', 'safety.py', 'safety.py --scene infinite --cells 20 --tolerance 0.004'],
-        'earth_pressure': ['earth_pressure.py', 'earth_pressure.py --contact 1 --cells 10 --movement 4 --steps 40', 'earth_pressure.py --contact 1 --rough 1 --wall 15', 'sheet.py', 'sheet.py --wall 20'],
+        'earth_pressure': ['earth_pressure.py', 'earth_pressure.py --contact 1 --cells 10 --movement 4 --steps 40', 'earth_pressure.py --contact 1 --rough 1 --wall 15', 'sheet.py', 'sheet.py --wall 20', 'sheet.py --halvings 1', 'sheet.py --halvings 1 --wall 20'],
         'footing3d': ['footing3d.py'],
         'axisymmetric': ['axisymmetric.py'],
         'locking': ['locking.py', 'locking.py --scene square --cells 6 --law tresca', 'locking.py --scene cut --cells 20', 'locking.py --scene beam --cells 4 --poisson 0.499'],

@@ -110,6 +110,7 @@ add('turn-across-2-4', 'turning.block', turned, dict(steps=10), dim=3, axis=1, c
 add('cylinder', 'turning.cylinder', dict(turned=atLeast(57), torque=near(1, .05), largest=atMost(.08)), angle=1.)
 for cells in 4, 6, 10:
 	add(f'vane-R{cells}', 'turning.vane', dict(turned=atLeast(57), band=near(1, .05), largest=atMost(.08)), dict(angle=1.), cells=cells, angle=1.5)
+add('vane-ring', 'turning.vane', dict(torque=near(1, .05), first=near(1, .05), largest=atMost(.08)), cells=4, halvings=3, angle=.4)
 
 
 def ofVane(results):

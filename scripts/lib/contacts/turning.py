@@ -4,7 +4,7 @@ from math import acos, atan, ceil, cos, degrees, inf, log, pi, sin, sqrt
 
 import numpy as np
 from yade import mpm, pack, utils
-from yade.wrapper import MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, MpmTrescaMat, Omega
+from yade.wrapper import MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, MpmRefinement, MpmTrescaMat, Omega
 
 from .bodies import One, steel
 from .course import Course
@@ -69,9 +69,9 @@ def _turn(course, plates, axis, angle, steps, look):
 		if not course.run(1, look): return
 
 
-def _around(hole, bodies, h, contact, pressure, points, fBar, wide=5 * R):
+def _around(hole, bodies, h, contact, pressure, points, fBar, wide=5 * R, refinements=()):
 	"""Soil under a pressure between rollers, with a hole where bodies are wished in place; its material is in the scene."""
-	grid = MpmGrid(cellSize=h)
+	grid = MpmGrid(cellSize=h, refinements=list(refinements))
 	O.bodies.append(mpm.fill(pack.inAlignedBox((-wide, -wide, -1), (wide, wide, 1)) - hole, grid, points, 'soil'))
 	mpm.assign(stress=np.repeat(-pressure * np.eye(3)[None], len(O.bodies), axis=0))
 	rigid = [One(body) for body in bodies]
@@ -110,8 +110,17 @@ def cylinder(cells=4, angle=1., stiffness=10., points=3, seconds=200):
 	return _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * R**2 * cap)
 
 
-def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seconds=300):
-	"""Two Boxes crossed, *width* cells thick, rough, in clay. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; on a grid the nodes of the cells in which the edges end, half a cell farther on average, turn with them, and the row of cells beyond is what shears, in its middle another half farther: (1 + h / r)^2 of it. As *band*, the torque over that."""
+def _ring(halvings, wide):
+	"""Cells halved all around the circle of radius R."""
+	places = R * np.array([(cos(a), sin(a)) for a in np.linspace(0, 2 * pi, 64, endpoint=False)])
+	return [MpmRefinement(min=(x - wide, y - wide, -inf), max=(x + wide, y + wide, inf), halvings=halvings) for x, y in places] if halvings else []
+
+
+def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, halvings=0, seconds=300):
+	"""Two Boxes crossed, *width* cells thick, rough, in clay. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; on a grid the nodes of the cells in which the edges end, half a cell farther on average, turn with them, and the row of cells beyond is what shears, in its middle another half farther: (1 + h / r)^2 of it. As *band*, the torque over that, with h of the smallest cells.
+
+	:param halvings: of the cells all around that cylinder; around the edges alone they do not help
+	"""
 	O.reset()
 	clay('tresca')
 	steel()
@@ -119,9 +128,10 @@ def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seco
 	hole = pack.inAlignedBox((-R, -w, -2), (R, w, 2)) | pack.inAlignedBox((-w, -R, -2), (w, R, 2))
 	contact = MpmContact(stiffness=stiffness, **adhesion(1.))
 	bodies = [utils.box((0, 0, 0), extents, material='rigid', fixed=True) for extents in ((R, w, 1), (w, R, 1))]
-	rigid, solver = _around(hole, bodies, R / cells, contact, pressure * strength, points, True)
-	told = _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * (R**2 + w**2) * strength)
-	return told | dict(band=told['torque'] / (1 + R / cells / sqrt(R**2 + w**2))**2)
+	small = R / cells / 2**halvings
+	rigid, solver = _around(hole, bodies, R / cells, contact, pressure * strength, points, True, refinements=_ring(halvings, R / 8))
+	told = _torques(rigid, contact, Course(solver, seconds), .1 / cells / 2**halvings, angle, 2 * pi * (R**2 + w**2) * strength)
+	return told | dict(band=told['torque'] / (1 + small / sqrt(R**2 + w**2))**2)
 
 
 def ring(turns=1., steps=120, cells=4, stiffness=20., seconds=300):
