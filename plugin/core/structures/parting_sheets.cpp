@@ -153,20 +153,62 @@ SheetCut extended(const PartingSheet& sheet, const PointCloud<3>& cloud, const G
 	return cut;
 }
 
-/// True if centres of points are beside a sheet on both of its sides.
+/// Centres of points by the largest cells that they are in.
+class PointsByCell {
+public:
+	PointsByCell(const PointCloud<3>& cloud, const Bounds<3>& box, const Grid<3>& grid) : cloud_(cloud), origin_(grid.origin), size_(largestCell(grid))
+	{
+		for (int p = 0; p < int(cloud.size()); ++p)
+			if (box.contain(cloud.position[p])) points_.emplace_back(Grid<3>::key(cell(cloud.position[p])), p);
+		std::sort(points_.begin(), points_.end());
+	}
+
+	/// Calls f(position) for the points in a box and some around it, until it is true; then true.
+	template <class F> bool anyIn(const Bounds<3>& box, F&& f) const
+	{
+		const Index<3> low = cell(box.low), high = cell(box.high);
+		for (int k = low[2]; k <= high[2]; ++k)
+			for (int j = low[1]; j <= high[1]; ++j) { // the cells of a row have keys that follow each other
+				const Key last = Grid<3>::key({ high[0], j, k });
+				auto      i    = std::lower_bound(points_.begin(), points_.end(), std::pair(Grid<3>::key({ low[0], j, k }), -1));
+				for (; i != points_.end() && i->first <= last; ++i)
+					if (f(cloud_.position[i->second])) return true;
+			}
+		return false;
+	}
+
+private:
+	Index<3> cell(const Vec3& x) const
+	{
+		constexpr double limit = Grid<3>::indexLimit;
+		return ((x - origin_) / size_).array().floor().min(limit).max(-limit).cast<int>();
+	}
+
+	const PointCloud<3>&             cloud_;
+	const Vec3                       origin_;
+	const double                     size_;
+	std::vector<std::pair<Key, int>> points_;
+};
+
+/// True if centres of points are before facets of a sheet on both of its sides.
 bool isBetween(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
 	constexpr double    onSheet = 0.1; // [cells]
 	const double        most    = (asideOfCut + reachBesideCut) * largestCell(grid);
-	const Bounds<3>     box(sheet.positions, most);
+	const PointsByCell  points(cloud, Bounds<3>(sheet.positions, most), grid);
 	std::array<bool, 2> found {};
-	for (std::size_t p = 0; p < cloud.size() && !(found[0] && found[1]); ++p) {
-		if (!box.contain(cloud.position[p])) continue;
-		const FromSheet at = fromSheet(sheet, cloud.position[p], most);
-		const double    h  = cellSizeAt(grid, cloud.position[p]);
-		if (at.away <= (asideOfCut + reachBesideCut) * h && !at.isBeyond && at.away > onSheet * h) found[at.side > 0] = true;
+	for (const auto& facet : sheet.facets) {
+		const Triangle x      = cornersOf(sheet, facet);
+		const Vec3     normal = normalTo(x);
+		const auto     look   = [&](const Vec3& position) {
+			const double left = normal.dot(position - x[0]), h = cellSizeAt(grid, position);
+			if (std::abs(left) > (asideOfCut + reachBesideCut) * h || std::abs(left) <= onSheet * h || found[left > 0]) return false;
+			if ((closestWeights(x, position).array() > 0).all()) found[left > 0] = true;
+			return found[0] && found[1];
+		};
+		if (points.anyIn(Bounds<3>({ x[0], x[1], x[2] }, most), look)) return true;
 	}
-	return found[0] && found[1];
+	return false;
 }
 
 } // namespace
@@ -188,7 +230,7 @@ void PartingSheet::prepare()
 	}
 }
 
-FromSheet fromSheet(const PartingSheet& sheet, const Vec3& position, double reach)
+FromSheet fromSheet(const PartingSheet& sheet, const Vec3& position)
 {
 	FromSheet at;
 	for (std::size_t f = 0; f < sheet.facets.size(); ++f) {
@@ -196,7 +238,7 @@ FromSheet fromSheet(const PartingSheet& sheet, const Vec3& position, double reac
 		const double offBox = (box.first - position).cwiseMax(position - box.second).cwiseMax(0.).norm();
 		const auto   x      = cornersOf(sheet, sheet.facets[f]);
 		const double same   = 1e-9 * (x[1] - x[0]).norm();
-		if (offBox > std::min(at.away + same, reach)) continue;
+		if (offBox > at.away + same) continue;
 		const Vec3   weights = closestWeights(x, position);
 		const double away    = (position - weights[0] * x[0] - weights[1] * x[1] - weights[2] * x[2]).norm();
 		if (away > at.away + same) continue;

@@ -33,9 +33,7 @@ struct FromSheet {
 	double side     = 0;     ///< > 0 left, < 0 right: distance from the planes of the nearest facets, weighted by their angles there [m]
 	bool   isBeyond = false; ///< an edge that bounds the surface
 };
-
-/// Facets beyond a reach may be left out; `away` is then infinite if no other is there.
-FromSheet fromSheet(const PartingSheet&, const Vec3& position, double reach = std::numeric_limits<double>::infinity());
+FromSheet fromSheet(const PartingSheet&, const Vec3& position);
 
 /// As partSoil() of lines does: gives points to the right of sheets, near these, layers of their own, the grid the nodes
 /// there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side only,

@@ -2,6 +2,7 @@
 #include "core/structures/rigid_sheets.hpp"
 #include "core/grid/refinement.hpp"
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 namespace gimpm {
@@ -25,15 +26,31 @@ public:
 	std::vector<int>   bodies;
 
 private:
+	using Bin = std::array<std::int64_t, 3>;
+
+	/// A vertex that is within `same_` of a position along each axis, or a new one.
 	int vertex(const Vec3& position)
 	{
-		for (std::size_t v = 0; v < positions.size(); ++v)
-			if ((positions[v] - position).norm() <= same_) return int(v);
+		const Bin low = bin(position.array() - same_), high = bin(position.array() + same_);
+		for (auto i = low[0]; i <= high[0]; ++i)
+			for (auto j = low[1]; j <= high[1]; ++j)
+				for (auto k = low[2]; k <= high[2]; ++k)
+					if (const auto known = bins_.find({ i, j, k }); known != bins_.end())
+						for (const int v : known->second)
+							if ((positions[v] - position).cwiseAbs().maxCoeff() <= same_) return v;
 		positions.push_back(position);
+		bins_[bin(position)].push_back(int(positions.size()) - 1);
 		return int(positions.size()) - 1;
 	}
+	Bin bin(const Vec3& x) const
+	{
+		constexpr double many = 1e3;
+		return { std::int64_t(std::floor(x[0] / (many * same_))), std::int64_t(std::floor(x[1] / (many * same_))),
+			 std::int64_t(std::floor(x[2] / (many * same_))) };
+	}
 
-	const double same_;
+	std::map<Bin, std::vector<int>> bins_;
+	const double                    same_;
 };
 
 /// Size of the largest cell at the corners and the centre of a rectangle [m].
