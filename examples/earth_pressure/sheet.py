@@ -71,7 +71,7 @@ def limits(side):
 
 
 coulomb, lancellotta = limits(-1)[0], limits(1)[1]
-where = f'{"a smooth" if not delta else "a rough"} sheet, {options.cells} cells over the height' + (f', halved {options.halvings} times' if options.halvings else '') + (f', toe {options.toe:g} cells above a line' if options.toe else '')
+where = f'{"a smooth" if not delta else "a rough"} sheet, {options.cells} cells over the height' + (f', {options.cells // 2**options.halvings} away from it' if options.halvings else '') + (f', toe {options.toe:g} cells above a line' if options.toe else '')
 for name, K, theory, source in ('active', active, coulomb, 'Coulomb 1776'), ('passive', passive, lancellotta, 'Lancellotta 2002'):
 	print(f'{name}: K = {K:.4f}, {source} {theory:.4f} ({100 * (K / theory - 1):+.1f} %)')
 	compared(f'K, {name}, {where}', K, theory, source if delta else 'Rankine 1857')

@@ -74,7 +74,7 @@ struct SheetCut : PartingSheet {
 			all.push_back(cornersOf(*this, facet));
 		return all;
 	}
-	double side(const Vec3& x) const { return fromSheet(*this, x).side; }
+	double side(const Vec3& x) const { return sideOf(*this, x); }
 	bool   crosses(const Triangle& piece, const Vec3& middle, double half) const { return passesThrough(piece, middle, half); }
 	bool   endsIn(const Vec3& middle, double half) const
 	{
@@ -230,25 +230,23 @@ void PartingSheet::prepare()
 	}
 }
 
-FromSheet fromSheet(const PartingSheet& sheet, const Vec3& position)
+double sideOf(const PartingSheet& sheet, const Vec3& position)
 {
-	FromSheet at;
+	double least = std::numeric_limits<double>::infinity(), side = 0;
 	for (std::size_t f = 0; f < sheet.facets.size(); ++f) {
 		const auto&  box    = sheet.boxes[f];
 		const double offBox = (box.first - position).cwiseMax(position - box.second).cwiseMax(0.).norm();
 		const auto   x      = cornersOf(sheet, sheet.facets[f]);
 		const double same   = 1e-9 * (x[1] - x[0]).norm();
-		if (offBox > at.away + same) continue;
+		if (offBox > least + same) continue;
 		const Vec3   weights = closestWeights(x, position);
 		const double away    = (position - weights[0] * x[0] - weights[1] * x[1] - weights[2] * x[2]).norm();
-		if (away > at.away + same) continue;
-		if (away < at.away - same) at.side = 0, at.isBeyond = false;
-		at.side += angleAt(x, weights) * normalTo(x).dot(position - x[0]);
-		at.away = std::min(at.away, away);
-		for (int i = 0; i < 3; ++i)
-			at.isBeyond = at.isBeyond || (sheet.isBorder[f][i] && weights[(i + 2) % 3] == 0);
+		if (away > least + same) continue;
+		if (away < least - same) side = 0;
+		side += angleAt(x, weights) * normalTo(x).dot(position - x[0]);
+		least = std::min(least, away);
 	}
-	return at;
+	return side;
 }
 
 void lookBetween(const std::vector<PartingSheet*>& sheets, const PointCloud<3>& cloud, const Grid<3>& grid)

@@ -4,7 +4,6 @@
 #include "core/grid/parting.hpp"
 #include "core/grid/point_cloud.hpp"
 #include <array>
-#include <limits>
 #include <vector>
 
 namespace gimpm {
@@ -27,13 +26,9 @@ struct PartingSheet {
 	void prepare();
 };
 
-/// Closest-point projection of a position on a surface, and the side of the surface that it is on.
-struct FromSheet {
-	double away     = std::numeric_limits<double>::infinity(); ///< distance [m]
-	double side     = 0;     ///< > 0 left, < 0 right: distance from the planes of the nearest facets, weighted by their angles there [m]
-	bool   isBeyond = false; ///< an edge that bounds the surface
-};
-FromSheet fromSheet(const PartingSheet&, const Vec3& position);
+/// The side of a surface that a position is on: > 0 left, < 0 right. The distances from the planes of the facets that are
+/// nearest to it, weighted by their angles there [m].
+double sideOf(const PartingSheet&, const Vec3& position);
 
 /// As partSoil() of lines does: gives points to the right of sheets, near these, layers of their own, the grid the nodes
 /// there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side only,

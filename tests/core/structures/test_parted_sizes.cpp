@@ -195,10 +195,11 @@ namespace {
 		for (const auto& flags : sheets[0].isBorder)
 			border += flags[0] + flags[1] + flags[2];
 		EXPECT_EQ(border, 16);
-		const double inside = fromSheet(sheets[0], { 0.1, 0.2, 0.5 }).side, outside = fromSheet(sheets[0], { 1.3, 0.2, 0.5 }).side;
-		EXPECT_LT(inside * outside, 0);
-		EXPECT_TRUE(fromSheet(sheets[0], { 1, 0.1, 1.2 }).isBeyond);
-		EXPECT_FALSE(fromSheet(sheets[0], { 1, 0.1, 0.9 }).isBeyond);
+		for (int i = 0; i < 16; ++i) { // before facets and before their edges, beside the tube and beyond its ends
+			const Vec3 outwards(std::cos(i * M_PI / 8), std::sin(i * M_PI / 8), 0);
+			for (const double z : { -0.2, 0.5, 1.3 })
+				EXPECT_LT(sideOf(sheets[0], 0.7 * outwards + z * Vec3::UnitZ()) * sideOf(sheets[0], 1.3 * outwards + z * Vec3::UnitZ()), 0);
+		}
 
 		std::vector<RigidBody<3>> vane;
 		for (int i = 0; i < 8; i += 2) {
