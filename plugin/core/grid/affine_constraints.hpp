@@ -42,8 +42,8 @@ struct AffineConstraints {
 /// Ties nodes, to which their masters are added; they stay sorted. In a refined grid a node is tied to the corners of
 /// the largest leaf that touches it, and these in turn to theirs; a corner of that leaf itself to the node of the
 /// leaf's level there, unless it is that node. So the functions of all levels together are continuous, and in a leaf
-/// they are linear along each axis. Where lines part the body, masters in layers above 0 that are not nodes of their own
-/// are replaced by those of layer 0 in their places.
+/// they are linear along each axis. Where lines part the body, masters in layers above 0 that are not nodes of their
+/// own are replaced by those of layer 0 in their places.
 template <int Dim> AffineConstraints tieNodes(std::vector<Key>& nodes, const Grid<Dim>&);
 
 } // namespace gimpm

@@ -20,8 +20,8 @@ template <int Dim, class F> void forSidesOf(Key cell, Key neighbour, const Grid<
 	f(neighbour, Grid<Dim>::layer(cell));
 }
 
-/// Calls f(cell above a face of a cell, cell below the face in the layer and of the level of its nodes): of two sizes the
-/// smaller cell's face is meant, and the cell below, or the one above it, is part of the larger one.
+/// Calls f(cell above a face of a cell, cell below the face in the layer and of the level of its nodes): of two sizes
+/// the smaller cell's face is meant, and the cell below, or the one above it, is part of the larger one.
 template <int Dim, class F> void forCellsAbove(Key cell, int axis, const Grid<Dim>& grid, F&& f)
 {
 	forNeighbours(cell, axis, true, grid, [&](Key neighbour, int level) {

@@ -23,8 +23,8 @@ template <int Dim> struct LeakyCut {
 /// body around the ends of the line. In a refined grid hanging nodes are tied within their layer first.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes of their own, sorted, all in layers above 0 and not hanging; and the layer of a point by its
-	/// position. Null: the cells are equal.
+	/// Keys of the nodes of their own, sorted, all in layers above 0 and not hanging; and the layer of a point by
+	/// its position. Null: the cells are equal.
 	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement = {},
 	        std::vector<LeakyCut<Dim>> leaks = {});
 
@@ -39,8 +39,8 @@ public:
 	/// The cell that stands for one of a layer, in a refined grid a leaf or a part of one.
 	Key cellFor(Key cell) const { return hasOwnNode(cell) ? cell : in(0, cell); }
 
-	/// Calls f(cell beyond a face, layer of the face) by a cell and the one beyond, in its layer: for the one that stands
-	/// for this, and from a cell of layer 0 without nodes of their own for those of all layers.
+	/// Calls f(cell beyond a face, layer of the face) by a cell and the one beyond, in its layer: for the one that
+	/// stands for this, and from a cell of layer 0 without nodes of their own for those of all layers.
 	template <class F> void forSidesBeyond(Key cell, Key beyond, F&& f) const
 	{
 		f(cellFor(beyond), Grid<Dim>::layer(cell));

@@ -44,8 +44,8 @@ template <int Dim, class F> void forNodesIn(const Vec<Dim>& low, const Vec<Dim>&
 
 /// The nodes whose cells a cut divides in two: those of all levels that do not hang, in layer 0, sorted.
 ///
-/// A cut has `positions`, `pieces()` as corners, crosses(piece, middle, half) with the square or cube around a position,
-/// and endsIn(middle, half) if it ends there.
+/// A cut has `positions`, `pieces()` as corners, crosses(piece, middle, half) with the square or cube around a
+/// position, and endsIn(middle, half) if it ends there.
 template <int Dim, class Cut> std::vector<Key> nodesCut(const Cut& cut, const Grid<Dim>& grid)
 {
 	std::vector<Key> nodes;
@@ -120,8 +120,8 @@ template <int Dim> bool areApart(const std::vector<Key>& nodes, const std::vecto
 	return true;
 }
 
-/// Gives surfaces (or lines) that have soil on both of their sides layers, as long as they are apart, the grid the nodes
-/// there that are there twice, and points their layers; cutOf(surface) makes the cut of each.
+/// Gives surfaces (or lines) that have soil on both of their sides layers, as long as they are apart, the grid the
+/// nodes there that are there twice, and points their layers; cutOf(surface) makes the cut of each.
 template <int Dim, class Surface, class CutOf> void partByCuts(const std::vector<Surface*>& surfaces, PointCloud<Dim>& cloud, Grid<Dim>& grid, CutOf&& cutOf)
 {
 	std::vector<decltype(cutOf(*surfaces.front()))> cuts;

@@ -90,11 +90,12 @@ struct BorderEdge {
 	bool   isTip;    ///< there is soil beyond it
 };
 
-/// The edge from a vertex to another one of a facet, by what is beyond it at positions no farther apart than the smallest
-/// cells. A cut goes on by the smallest of the cells along an edge where there is soil, so that none ends farther beyond.
+/// The edge from a vertex to another one of a facet, by what is beyond it at positions no farther apart than the
+/// smallest cells. A cut goes on by the smallest of the cells along an edge where there is soil, so that none ends
+/// farther beyond.
 BorderEdge borderEdge(const PartingSheet& sheet, const std::array<int, 3>& facet, int i, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
-	const Triangle      x = cornersOf(sheet, { facet[i], facet[(i + 1) % 3], facet[(i + 2) % 3] });
+	const Triangle      x     = cornersOf(sheet, { facet[i], facet[(i + 1) % 3], facet[(i + 2) % 3] });
 	const Vec3          along = x[1] - x[0], outwards = along.cross(normalTo(x)).normalized();
 	const int           parts = int(std::min(1e4, std::ceil(along.norm() / grid.cellSize)));
 	std::vector<Vec3>   positions;
@@ -105,8 +106,8 @@ BorderEdge borderEdge(const PartingSheet& sheet, const std::array<int, 3>& facet
 		positions.push_back(on + asideOfCut * size.back() * outwards);
 		reach.push_back(reachBesideCut * size.back());
 	}
-	const auto isFar = areFarFromMaterial<3>(positions, reach, cloud, grid);
-	const bool isTip = std::any_of(isFar.begin(), isFar.end(), [](std::int64_t is) { return !is; });
+	const auto isFar               = areFarFromMaterial<3>(positions, reach, cloud, grid);
+	const bool isTip               = std::any_of(isFar.begin(), isFar.end(), [](std::int64_t is) { return !is; });
 	const auto [smallest, largest] = std::minmax_element(size.begin(), size.end());
 	return { facet[i], facet[(i + 1) % 3], outwards, isTip ? beyondTip * *smallest : beyondEnds * *largest, isTip };
 }
@@ -120,7 +121,8 @@ std::vector<BorderEdge> borderOf(const PartingSheet& sheet, const PointCloud<3>&
 	return border;
 }
 
-/// Way by which a vertex of the border goes outwards, so that it is as far from the lines of both its edges as they ask.
+/// Way by which a vertex of the border goes outwards, so that it is as far from the lines of both its edges as they
+/// ask.
 Vec3 shiftAt(const BorderEdge& one, const BorderEdge& other)
 {
 	constexpr double sharpest = 0.1; // sine squared
@@ -201,10 +203,10 @@ bool isBetween(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid
 		const Triangle x      = cornersOf(sheet, facet);
 		const Vec3     normal = normalTo(x);
 		const auto     look   = [&](const Vec3& position) {
-			const double left = normal.dot(position - x[0]), h = cellSizeAt(grid, position);
-			if (std::abs(left) > (asideOfCut + reachBesideCut) * h || std::abs(left) <= onSheet * h || found[left > 0]) return false;
-			if ((closestWeights(x, position).array() > 0).all()) found[left > 0] = true;
-			return found[0] && found[1];
+                        const double left = normal.dot(position - x[0]), h = cellSizeAt(grid, position);
+                        if (std::abs(left) > (asideOfCut + reachBesideCut) * h || std::abs(left) <= onSheet * h || found[left > 0]) return false;
+                        if ((closestWeights(x, position).array() > 0).all()) found[left > 0] = true;
+                        return found[0] && found[1];
 		};
 		if (points.anyIn(Bounds<3>({ x[0], x[1], x[2] }, most), look)) return true;
 	}

@@ -14,7 +14,7 @@ struct PartingSheet {
 	std::vector<Vec3>               positions; ///< of the vertices, as the step begins [m]
 	std::vector<std::array<int, 3>> facets;
 	/// Flags of the edges of each facet, from its corner 0 to 1, 1 to 2 and 2 to 0: no other facet shares them.
-	std::vector<std::array<bool, 3>> isBorder;
+	std::vector<std::array<bool, 3>>   isBorder;
 	std::vector<std::pair<Vec3, Vec3>> boxes; ///< around the facets [m]
 
 	/// In this step: of the points to its right, where it parts the soil; 0: it does not.
@@ -26,14 +26,14 @@ struct PartingSheet {
 	void prepare();
 };
 
-/// The side of a surface that a position is on: > 0 left, < 0 right. The distances from the planes of the facets that are
-/// nearest to it, weighted by their angles there [m].
+/// The side of a surface that a position is on: > 0 left, < 0 right. The distances from the planes of the facets that
+/// are nearest to it, weighted by their angles there [m].
 double sideOf(const PartingSheet&, const Vec3& position);
 
-/// As partSoil() of lines does: gives points to the right of sheets, near these, layers of their own, the grid the nodes
-/// there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side only,
-/// or another sheet within three cells that parts it. An edge that has soil beyond it is the edge of a cut, around which
-/// soil is whole: as of the nodes next to it.
+/// As partSoil() of lines does: gives points to the right of sheets, near these, layers of their own, the grid the
+/// nodes there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side
+/// only, or another sheet within three cells that parts it. An edge that has soil beyond it is the edge of a cut,
+/// around which soil is whole: as of the nodes next to it.
 void partSoil(const std::vector<PartingSheet*>&, PointCloud<3>&, Grid<3>&);
 
 /// Finds the sheets that have soil on both of their sides; no more, where none may part it.

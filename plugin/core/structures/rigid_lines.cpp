@@ -73,7 +73,8 @@ private:
 		}
 	}
 
-	/// The free piece at the last vertex: the only other one there, or one that goes straight on; -1: there is none.
+	/// The free piece at the last vertex: the only other one there, or one that goes straight on; -1: there is
+	/// none.
 	int pieceAfter(const RigidLine& line) const
 	{
 		constexpr double straight = 0.9998; // cosine of a degree

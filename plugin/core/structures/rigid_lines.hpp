@@ -11,8 +11,8 @@ struct RigidLine : PartingLine {
 	std::vector<int> bodies; ///< numbers, by piece
 };
 
-/// Sheets, and the centre lines of blocks thinner than the largest cell along them, as the step begins. Those that share
-/// an end are one line; where three and more do, lines go straight on or end.
+/// Sheets, and the centre lines of blocks thinner than the largest cell along them, as the step begins. Those that
+/// share an end are one line; where three and more do, lines go straight on or end.
 std::vector<RigidLine> linesOf(const std::vector<RigidBody<2>>&, const Grid<2>&);
 
 } // namespace gimpm

@@ -70,7 +70,7 @@ void addFacetsOf(JoinedFacets& to, const RigidBody<3>& body, int number, const G
 	if (shape.kind != RigidKind::block) return;
 	int thin;
 	shape.halfSize.minCoeff(&thin);
-	const Vec3                a = shape.halfSize[(thin + 1) % 3] * Vec3::Unit((thin + 1) % 3), b = shape.halfSize[(thin + 2) % 3] * Vec3::Unit((thin + 2) % 3);
+	const Vec3 a = shape.halfSize[(thin + 1) % 3] * Vec3::Unit((thin + 1) % 3), b = shape.halfSize[(thin + 2) % 3] * Vec3::Unit((thin + 2) % 3);
 	const std::array<Vec3, 4> x { body.begin.inSpace(-a - b), body.begin.inSpace(a - b), body.begin.inSpace(a + b), body.begin.inSpace(b - a) };
 	if (body.thickness() >= largestCellAt(x, grid) * (1 - 1e-9)) return;
 	to.add({ x[0], x[1], x[2] }, number);
@@ -96,10 +96,7 @@ public:
 	}
 
 private:
-	static std::array<int, 2> edge(const Facet& facet, int i)
-	{
-		return { std::min(facet[i], facet[(i + 1) % 3]), std::max(facet[i], facet[(i + 1) % 3]) };
-	}
+	static std::array<int, 2> edge(const Facet& facet, int i) { return { std::min(facet[i], facet[(i + 1) % 3]), std::max(facet[i], facet[(i + 1) % 3]) }; }
 	/// True if a facet runs along its edge i from the lower vertex to the higher one.
 	static bool isUpwards(const Facet& facet, int i) { return facet[i] < facet[(i + 1) % 3]; }
 
@@ -128,7 +125,8 @@ private:
 		return sheet;
 	}
 
-	/// The facet beyond an edge of another one: the only one there, or one that goes straight on; -1: there is none.
+	/// The facet beyond an edge of another one: the only one there, or one that goes straight on; -1: there is
+	/// none.
 	int beyond(int facet, const std::array<int, 2>& edge) const
 	{
 		constexpr double straight = 0.9998; // cosine of a degree
@@ -148,7 +146,8 @@ private:
 		return (off - off.dot(along) * along).normalized();
 	}
 
-	/// Gives a sheet its facets, over vertices of its own. A vertex where it touches itself without an edge stays one.
+	/// Gives a sheet its facets, over vertices of its own. A vertex where it touches itself without an edge stays
+	/// one.
 	void number(RigidSheet& sheet, const std::vector<Facet>& facets, const std::vector<int>& numbers) const
 	{
 		std::map<int, int> own;

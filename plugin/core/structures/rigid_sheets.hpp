@@ -12,8 +12,8 @@ struct RigidSheet : PartingSheet {
 };
 
 /// Facets, and the middle faces of blocks thinner than the largest cell there, as the step begins. Those that share an
-/// edge are one surface; where three and more do, surfaces go straight on or end. Bodies that deform, and surfaces with one side only, are
-/// left out.
+/// edge are one surface; where three and more do, surfaces go straight on or end. Bodies that deform, and surfaces with
+/// one side only, are left out.
 std::vector<RigidSheet> sheetsOf(const std::vector<RigidBody<3>>&, const Grid<3>&);
 
 } // namespace gimpm

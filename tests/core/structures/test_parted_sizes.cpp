@@ -14,7 +14,7 @@ namespace {
 	{
 		std::vector<RigidBody<Dim>> bodies(Dim - 1);
 		const auto                  at = [](const Vec<2>& x, double z) {
-                        Vec<Dim> position = Vec<Dim>::Constant(z);
+                        Vec<Dim> position           = Vec<Dim>::Constant(z);
                         position.template head<2>() = x;
                         return position;
 		};
@@ -38,11 +38,11 @@ namespace {
 
 		Sides(const Grid<Dim>& cells, const Vec<2>& from, const Vec<2>& to) : grid(cells), head(from), along(to - from)
 		{
-			const auto     all  = scattered<Dim>(Dim == 2 ? 3000 : 6000);
-			const Vec<2>   side = Vec<2>(-along[1], along[0]).normalized();
+			const auto   all  = scattered<Dim>(Dim == 2 ? 3000 : 6000);
+			const Vec<2> side = Vec<2>(-along[1], along[0]).normalized();
 			for (std::size_t p = 0; p < all.size(); ++p) {
-				const Vec<Dim> half = all.halfSize[p].cwiseMin(largestHalf(grid, all.position[p]));
-				const double   away = std::abs(side.dot(all.position[p].template head<2>() - head));
+				const Vec<Dim> half    = all.halfSize[p].cwiseMin(largestHalf(grid, all.position[p]));
+				const double   away    = std::abs(side.dot(all.position[p].template head<2>() - head));
 				const bool     isBelow = all.position[p][1] + half[1] < std::min(from[1], to[1]);
 				if (isBelow || away > side.cwiseAbs().dot(half.template head<2>())) addPoint<Dim>(cloud, all.position[p], half);
 			}
@@ -59,7 +59,8 @@ namespace {
 			return sign * (along[0] * off[1] - along[1] * off[0]) < 0;
 		}
 
-		/// Nodal values of two fields, of which nodes that are there twice have one each; tied nodes by their masters.
+		/// Nodal values of two fields, of which nodes that are there twice have one each; tied nodes by their
+		/// masters.
 		template <class F> Eigen::VectorXd fields(F&& f) const
 		{
 			Eigen::VectorXd d(Dim * basis.nodes.size());
@@ -119,14 +120,15 @@ namespace {
 		return { equal, cornerGrid<Dim>() };
 	}
 
-	/// Through all of a block: each side has its linear field, of which points and ghost faces of the other one have
-	/// nothing.
+	/// Through all of a block: each side has its linear field, of which points and ghost faces of the other one
+	/// have nothing.
 	TYPED_TEST(PartedSizes, SidesHaveFieldsOfTheirOwn)
 	{
 		constexpr int Dim = TypeParam::value;
 		Random        random(4);
 		for (const auto& grid : grids<Dim>())
-			for (const auto& [from, to] : { std::pair(Vec<2>(0.4, -1), Vec<2>(0.4, 4)), std::pair(Vec<2>(-1, -0.7), Vec<2>(5, 2.9)), std::pair(Vec<2>(1, 4), Vec<2>(1, -1)) }) {
+			for (const auto& [from, to] : { std::pair(Vec<2>(0.4, -1), Vec<2>(0.4, 4)), std::pair(Vec<2>(-1, -0.7), Vec<2>(5, 2.9)),
+			                                std::pair(Vec<2>(1, 4), Vec<2>(1, -1)) }) {
 				Sides<Dim>     sides(grid, from, to);
 				const Mat<Dim> A[2]     = { random.matrix<Dim, Dim>(), random.matrix<Dim, Dim>() };
 				const auto     field    = [&](bool is, const Vec<Dim>& x) { return Vec<Dim>(A[is] * x + Vec<Dim>::Constant(is)); };

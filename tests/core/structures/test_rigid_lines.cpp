@@ -31,10 +31,12 @@ namespace {
 		return body;
 	}
 
-	/// Sheets in any order and direction make one line where two meet, or where they go straight on; thick blocks make none.
+	/// Sheets in any order and direction make one line where two meet, or where they go straight on; thick blocks
+	/// make none.
 	TEST(RigidLines, JoinThinBodiesThatShareEnds)
 	{
-		const auto open = linesOf({ sheet({ 1, 0 }, { 2, 0 }), plank({ 5, 5 }, { 1, 1 }), sheet({ 1, 0 }, { 1, -1 }), sheet({ 3, 1 }, { 2, 0 }) }, equal(0.5));
+		const auto open
+		        = linesOf({ sheet({ 1, 0 }, { 2, 0 }), plank({ 5, 5 }, { 1, 1 }), sheet({ 1, 0 }, { 1, -1 }), sheet({ 3, 1 }, { 2, 0 }) }, equal(0.5));
 		ASSERT_EQ(open.size(), 1u);
 		EXPECT_EQ(open[0].positions.size(), 4u);
 		EXPECT_EQ(open[0].bodies.size(), 3u);

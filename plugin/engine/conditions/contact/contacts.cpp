@@ -77,7 +77,7 @@ namespace {
 	// Features that do not go with soil parted by thin bodies; empty: nothing.
 	string cannotPart(const Analysis& analysis, int processes)
 	{
-			if (processes > 1) return "several processes";
+		if (processes > 1) return "several processes";
 		if (analysis.isExplicit()) return "explicit steps";
 		for (const Listed& listed : analysis.conditions())
 			if (listed.condition->partsBodies() || dynamic_cast<const MpmBeam*>(listed.condition.get())) return listed.name();
