@@ -135,7 +135,7 @@ Vec3 shiftAt(const BorderEdge& one, const BorderEdge& other)
 /// to it.
 SheetCut extended(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
-	SheetCut                        cut { sheet, {} };
+	SheetCut                        cut { sheet, {}, {} };
 	const auto                      border = borderOf(sheet, cloud, grid);
 	std::map<int, std::vector<int>> at;
 	for (std::size_t e = 0; e < border.size(); ++e)
@@ -149,7 +149,10 @@ SheetCut extended(const PartingSheet& sheet, const PointCloud<3>& cloud, const G
 		const int a = beyond[edge.from], b = beyond[edge.to];
 		cut.facets.push_back({ edge.to, edge.from, a });
 		cut.facets.push_back({ edge.to, a, b });
-		if (edge.isTip) cut.rim.push_back({ cut.positions[a], cut.positions[b], cut.positions[b] });
+		if (!edge.isTip) continue;
+		cut.rim.push_back({ cut.positions[a], cut.positions[b], cut.positions[b] });
+		for (auto ahead = cut.facets.end() - 2; ahead != cut.facets.end(); ++ahead)
+			cut.leaks.push_back({ cornersOf(cut, *ahead), 0, LeakyCut<3>::asSoil });
 	}
 	cut.prepare();
 	return cut;
