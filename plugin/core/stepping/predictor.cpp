@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/predictor.hpp"
+#include "core/grid/parting.hpp"
 
 namespace gimpm {
 namespace {
@@ -20,6 +21,13 @@ bool meanOfNeighbours(
 	return count > 0;
 }
 
+/// Number of a node among those before, or of the one in its place from which it has been parted since; -1: it is new.
+template <int Dim> int numberBefore(const std::vector<Key>& nodesBefore, Key node, const Grid<Dim>& grid)
+{
+	const int same = find(nodesBefore, node);
+	return same < 0 && grid.parting ? find(nodesBefore, Parting<Dim>::in(0, node)) : same;
+}
+
 } // namespace
 
 template <int Dim>
@@ -30,7 +38,7 @@ Eigen::VectorXd continued(
 	std::vector<char> known(nodes.size(), 0);
 	std::vector<int>  open;
 	for (int n = 0; n < int(nodes.size()); ++n) {
-		const int at = find(nodesBefore, nodes[n]);
+		const int at = numberBefore(nodesBefore, nodes[n], grid);
 		known[n]     = at >= 0;
 		if (known[n]) d.segment(width * n, width) = times * before.segment(width * at, width);
 		else
