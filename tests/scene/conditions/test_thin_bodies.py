@@ -273,3 +273,32 @@ print(json.dumps([turn(2, 3, 12), turn(3, 2, 4, height=0.25)]))
 ''').result
 	assert all(abs(part - 1) < 0.05 for part in plane[3:]), plane
 	assert all(abs(part / (17 / 16)**2 - 1) < 0.03 for part in space[2:]), space
+
+
+def test_a_wall_of_facets_that_turns_in_3d_as_in_the_plane(yade):
+	"""A slab of two cells with a smooth wall that turns about its toe: active and passive force as in the plane within 3 %."""
+	plane, space = yade(in3D + '''
+def turned(dim, width=0.5, turn=-1e-3):
+	O.reset()
+	O.materials.append(MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=100, frictionAngle=np.radians(30), dilationAngle=np.radians(30), label='sand'))
+	O.materials.append(FrictMat(frictionAngle=0, density=2600, label='rigid'))
+	grid = MpmGrid(cellSize=0.25, dim=dim)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-4, -1, 0 if dim == 3 else -1), (4, 1.5, width)), grid, 2, 'sand'))
+	held = [MpmBoundary(max=(-4, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -1, inf), fix='xyz'[:dim])]
+	if dim == 3: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, width), fix='z')]
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=held, fBar=True, verbosity=0)
+	O.engines, O.dt = [solver], 1
+	mpm.geostatic(K0=0.5)
+	wall = facets(*[((0, 0, 0), (0, 1.75, 0), (0, 0, width)), ((0, 1.75, 0), (0, 1.75, width), (0, 0, width))][:dim - 1])
+	solver.contacts = [MpmContact()]
+	O.run(1, wait=True)
+	for _ in range(5):
+		for i in wall:
+			x, y, _ = O.bodies[i].state.pos
+			O.bodies[i].state.angVel, O.bodies[i].state.vel = (0, 0, turn), (np.cos(turn) * x - np.sin(turn) * y - x, np.sin(turn) * x + np.cos(turn) * y - y, 0)
+		O.run(1, wait=True)
+	return [abs(side[0]) / (width if dim == 3 else 1) for side in sides(solver)]
+
+print(json.dumps([turned(2), turned(3)]))
+''').result
+	assert all(abs(a / b - 1) < 0.03 for a, b in zip(space, plane)) and plane[1] > 4 * plane[0], (plane, space)
