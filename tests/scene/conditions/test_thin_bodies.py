@@ -24,6 +24,10 @@ def ground(h=0.25, low=(-2, -1), high=(2, 1), axisymmetric=False, engine=MpmImpl
 
 def sheet(x, toe, top=1.25): return O.bodies[O.bodies.append(utils.facet([(x, toe, 0), (x, top, 0), (x, toe, 1)], material='rigid', fixed=True))]
 def plank(x, toe, thick, top=1.25): return O.bodies[O.bodies.append(utils.box((x, (toe + top) / 2, 0), (thick / 2, (top - toe) / 2, 1), material='rigid', fixed=True))]
+def sizes(axisymmetric):
+	"""Settings of a grid of 0.125 m, and of one with such cells around a sheet alone."""
+	x = 1 if axisymmetric else 0
+	return dict(h=0.125), dict(h=0.25, gridMore=dict(refinements=[MpmRefinement(min=(x - 0.4, -inf, -inf), max=(x + 0.4, inf, inf))]))
 def sides(solver):
 	"""Forces of a body on the soil to its left and to its right."""
 	_, force = mpm.contactForces(solver)
@@ -73,11 +77,11 @@ print(json.dumps(found))
 
 
 def test_a_sheet_rubs_on_both_sides(yade):
-	"""In the plane and, as the skirt of a caisson, around an axis: the cap of the shear stress over the length in the soil, on each side within 3 % after the first millimetres."""
+	"""In the plane and, as the skirt of a caisson, around an axis, on cells of one and of two sizes: the cap of the shear stress over the length in the soil, on each side within 3 % after the first millimetres."""
 	found = yade(scene + '''
 found = []
-for axisymmetric in False, True:
-	solver = ground(h=0.125, low=(0 if axisymmetric else -2, -1), axisymmetric=axisymmetric, friction=1.2, K0=1)
+for axisymmetric, cells in [(ring, cells) for ring in (False, True) for cells in sizes(ring)]:
+	solver = ground(**cells, low=(0 if axisymmetric else -2, -1), axisymmetric=axisymmetric, friction=1.2, K0=1)
 	wall = sheet(1 if axisymmetric else 0, 0)
 	solver.contacts = [MpmContact(adhesion=2e3)]
 	O.run(1, wait=True)
@@ -90,11 +94,11 @@ print(json.dumps(found))
 
 
 def test_friction_of_a_sheet_goes_by_the_beta_method(yade):
-	"""K sigma_v tan(delta) on each side, in the plane and around an axis, within 3 %: through all of the ground, whose sides bear nothing of the weight (Poisson's ratio 0)."""
+	"""K sigma_v tan(delta) on each side, in the plane and around an axis, on cells of one and of two sizes, within 3 %: through all of the ground, whose sides bear nothing of the weight (Poisson's ratio 0)."""
 	found = yade(scene + '''
 found = []
-for axisymmetric in False, True:
-	solver = ground(h=0.125, low=(0 if axisymmetric else -3, -1), high=(3, 1), axisymmetric=axisymmetric, friction=np.radians(20), young=1e8, poisson=0)
+for axisymmetric, cells in [(ring, cells) for ring in (False, True) for cells in sizes(ring)]:
+	solver = ground(**cells, low=(0 if axisymmetric else -3, -1), high=(3, 1), axisymmetric=axisymmetric, friction=np.radians(20), young=1e8, poisson=0)
 	wall = sheet(1 if axisymmetric else 0, -1)
 	solver.contacts = [MpmContact()]
 	O.run(1, wait=True)
