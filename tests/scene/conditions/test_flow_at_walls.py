@@ -207,3 +207,30 @@ print(json.dumps([slide(P) for P in (0, 4e3, 8e3)]))
 '''
 	).result
 	assert [abs(part) for part in found] == pytest.approx([1, 1, 1], abs=.04)
+
+
+def test_water_flows_under_a_thin_rigid_wall(yade):
+	"""k H / 2 (Harr 1962) under a Facet, on a line of the grid or between two, on cells of several sizes, and under two Facets in 3D."""
+	found = yade(
+	        wall + '''
+def discharge(h, x=0, dim=2, halvings=0, length=12):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e9, poisson=.3, density=2000, conductivity=k, porosity=.4, label='soil'))
+	O.materials.append(FrictMat(label='steel'))
+	grid, w = MpmGrid(cellSize=h, dim=dim), 2 * h
+	if halvings: grid.refinements = [MpmRefinement(min=(-2, 1, -inf), max=(2, 3, inf), halvings=halvings)]
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-length, 0, 0 if dim == 3 else -1), (length, T, w)), grid, 2, 'soil'))
+	a, b, c, d = (x, T + 1, -1), (x, T - 2, -1), (x, T - 2, w + 1), (x, T + 1, w + 1)
+	O.bodies.append([utils.facet(corners, fixed=True, material='steel') for corners in ([a, b, c], [a, c, d])])
+	top = lambda low, high: [[(low, T, 0), (low, T, w), (high, T, w)], [(low, T, 0), (high, T, w), (high, T, 0)]] if dim == 3 else [(high, T), (low, T)]
+	drains = [MpmDrain(surface=top(*ends), pressure=p, conductance=100) for ends, p in (((-length, x - 1e-6), 1e4), ((x + 1e-6, length), 0))]
+	sides = [MpmBoundary(max=(-length, inf, inf), fix='x'), MpmBoundary(min=(length, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	if dim == 3: sides += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, w), fix='z')]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[MpmContact(friction=.3)], flow=MpmFlow(drains=drains, unitWeight=gammaW), verbosity=0, loadCurve=[(0, 1), (1, 1)])]
+	O.dt = 1e9
+	O.run(2, wait=True)
+	return drains[1].discharge / (k / 2 * (w if dim == 3 else 1))
+print(json.dumps([discharge(.5), discharge(.5, x=.2), discharge(1, halvings=1), discharge(.5, dim=3)]))
+'''
+	).result
+	assert found == pytest.approx([1] * 4, abs=.05)

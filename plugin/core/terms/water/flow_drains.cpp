@@ -132,7 +132,7 @@ template <int Dim> void Flow<Dim>::attachPassages(const StepContext<Dim>& step)
 	if (!step.grid.parting) return;
 	for (const LeakyCut<Dim>& cut : step.grid.parting->leaks()) {
 		Surface<Dim> surface;
-		surface.vertices.assign(cut.corners.begin(), cut.corners.end());
+		surface.vertices.assign(cut.corners.begin(), cut.corners.end()), surface.vertices0 = surface.vertices;
 		surface.pieces.emplace_back();
 		std::iota(surface.pieces[0].begin(), surface.pieces[0].end(), 0);
 		surface.refine(pieceLimit * step.grid.cellSize);
