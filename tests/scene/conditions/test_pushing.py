@@ -167,7 +167,7 @@ print(json.dumps(ends))
 
 def test_recipes_for_pushing_deeper_are_as_exact_as_the_page_says(yade):
 	"""Nodes that walk and a stiff block, by 3 cells of 8: movement and force of an elastic column."""
-	page = (root / 'examples/README.md').read_text()
+	page = (root / 'plugin/docs/studies/examples.md').read_text()
 	row = re.search(r'\| 8 \| ([\d.]+) %, 0 to \+(\d+) % \| ([\d.]+) %, 0 to \+(\d+) % \|', page)
 	walk, high, block, most = map(float, row.groups())
 	walking, pushed = yade(

@@ -108,18 +108,9 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (pressuresAreNew) fillNewPoints(around.cloud.material, *model.division);
 	takeNodes();
 	takeDrains(model, around);
-	Real       sum = 0, fastest = 0; // sum of constrained moduli; largest coefficient of consolidation
-	const Real count = model.division->sum(Real(around.cloud.size()));
-	for (size_t p = 0; p < around.cloud.size(); ++p) {
-		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
-		sum += modulus / count;
-		const gimpm::Pores& pores = water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p];
-		fastest                   = std::max(fastest, modulus * pores.conductivity * pores.largestRatio());
-	}
-	sum = model.division->sum(sum), fastest = model.division->largest(fastest);
-	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
-	isRamp     = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
-	model.fields.push_back(gimpm::pressureField(water, *model.division, sum / model.grid.cellSize));
+	const Real modulus = meanModulus(model, around);
+	isRamp             = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
+	model.fields.push_back(gimpm::pressureField(water, *model.division, modulus / model.grid.cellSize));
 	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::StepContext<Dim>& step, const gimpm::State& begin) {
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step, begin);
@@ -130,6 +121,21 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 		at.coupledTerms.erase(at.coupledTerms.begin() + term);
 		at.terms.push_back([this](const gimpm::StepContext<Dim>& step) { return frozen(step); });
 	};
+}
+
+// Constrained modulus; sets the time in which pressures spread over a cell.
+template <int Dim> Real Flows<Dim>::meanModulus(const gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
+{
+	Real       sum = 0, fastest = 0; // sum of constrained moduli; largest coefficient of consolidation
+	const Real count = model.division->sum(Real(around.cloud.size()));
+	for (size_t p = 0; p < around.cloud.size(); ++p) {
+		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
+		sum += modulus / count;
+		const gimpm::Pores& pores = water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p];
+		fastest                   = std::max(fastest, modulus * pores.conductivity * pores.largestRatio());
+	}
+	acrossCell = std::pow(model.grid.cellSize, 2) / model.division->largest(fastest);
+	return model.division->sum(sum);
 }
 
 // Suction pulls at nothing beside the soil: air gets there.

@@ -29,6 +29,7 @@ private:
 	void                              fillNewPoints(const vector<int>& materials, const gimpm::Division&);
 	void                              takeNodes();
 	void                              takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
+	Real                              meanModulus(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
 	void                              keepNodes();
 
 	shared_ptr<MpmFlow>                from;

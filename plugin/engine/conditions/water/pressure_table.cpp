@@ -16,8 +16,8 @@ namespace {
 		        function, std::move(places), name + ": MpmWater.pressure", { "a finite pressure [Pa]", [](Real p) { return std::isfinite(p); } });
 	}
 
-	// Nodes of the cells, and those up to `margin` cells around; of a leaf, cells of its size. Nodes are in smallest
-	// cells, as a function has the same value for cells of all sizes.
+	// Nodes of the cells, and those up to `margin` cells around; of a leaf, cells of its size. Nodes are in
+	// smallest cells, as a function has the same value for cells of all sizes.
 	template <int Dim> vector<Key> nodesAround(const vector<Key>& cells, int margin, const gimpm::Grid<Dim>& grid)
 	{
 		const int   width = 2 + 2 * margin, count = Dim == 2 ? width * width : width * width * width;
