@@ -4,6 +4,7 @@
 
 	plate      a Box on a block of four cells a side without Poisson's ratio, pressed to 0.75 of its height: E ln 0.75 / 0.75
 	footing    a Box on undrained clay in plane strain, half by symmetry: load over width and c_u, Prandtl 2 + pi as long as it is shallow
+	accurate   the footing with cells halved at its edge until its estimated error is --accuracy
 	sphere     a smooth Sphere on an elastic half-space, axisymmetric, in a box 15 contact radii wide and deep: force of Hertz
 	free       the same in 3D, a quarter of it, and free: YADE lets the Sphere sink under its weight, which is the force of Hertz, until it rests
 	cylinder   the Sphere in plane strain, where a Sphere is a cylinder: half width and pressure of the contact for the measured force
@@ -20,13 +21,15 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
 
 options = readOptions('Rigid bodies pressed into soil.',
-        scene=('footing', "'plate', 'footing', 'sphere', 'free' or 'cylinder'"),
+        scene=('footing', "'plate', 'footing', 'accurate', 'sphere', 'free' or 'cylinder'"),
         cells=(8, 'cells over half the width of the footing, or over the radius of the contact'),
         pointsPerCell=(2, 'material points per cell and axis'),
         depth=(0.1, 'of the footing at the end, as a part of its width B'),
         steps=(0, 'load steps; 0: 200 for a width, 10 for sphere and cylinder, 80 equilibria for the free sphere'),
         stiffness=(100., 'of the contact, over E / h'),
         every=(4, 'iterations of YADE from one equilibrium of the soil to the next, for the free Sphere'),
+        halvings=(0, 'of the cells at the edge of the footing'),
+        accuracy=(0.05, "estimated error at which 'accurate' ends"),
         rough=(0, '1: clay sticks to the footing up to c_u, 0: it slips freely'),
         picture=(1, '1: draw one, 0: only numbers'))
 began = time.time()
@@ -64,10 +67,11 @@ def plate():
 
 
 def footing():
+	O.reset()
 	B, cu = 1., 1e4
 	h = B / 2 / options.cells
 	width, deep = 3 * B, 2.5 * B
-	grid = MpmGrid(cellSize=h)
+	grid = MpmGrid(cellSize=h, adaptation=[MpmAdaptation(halvings=options.halvings)] if options.halvings else [])
 	O.materials.append(MpmVonMisesMat(young=500 * cu, poisson=0.49, density=1800, yieldStress=np.sqrt(2) * cu, label='clay'))
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -deep, -1), (width, 0, 1)), grid, options.pointsPerCell, 'clay'))
@@ -90,6 +94,18 @@ def footing():
 	print(f'at s = 0.02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
 	compared(f'footing by contact, N_c at .02 B, {2 * options.cells} cells over the width', shallow, 2 + np.pi, 'Prandtl 1921')
 	return shallow / (2 + np.pi) - 1, 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
+
+
+def accurate():
+	def bearing(halvings):
+		options.halvings = halvings
+		drawn[:] = footing()
+		return dict(N=(1 + drawn[0]) * (2 + np.pi))
+
+	drawn = []
+	found = mpm.untilAccurate(bearing, options.accuracy)
+	print(f'estimated {100 * found["error"] / found["N"]:.1f} %')
+	return drawn
 
 
 E, nu, R = 1e6, 0.3, 1.  # constants of the half-space, and radius of the Sphere
@@ -173,7 +189,7 @@ def compareLine(F, R, stiffness, h):
 	return width / half - 1
 
 
-error, *drawn = dict(plate=plate, footing=footing, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
+error, *drawn = dict(plate=plate, footing=footing, accurate=accurate, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
 	field, limit, *plane = drawn

@@ -127,9 +127,11 @@ plans = {
                         'sphere', '5', dict(cells=['1', '2', '4', '6'], stiffness=['5', '20', '100', '1000'], steps=['2', '5'], pointsPerCell=['2', '3']),
                         dict(cells=['1', '2'], stiffness=['20']), dict(cells='cells over the radius of the contact', error='force')),
         'clay':
-                contact(
-                        'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
-                        dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load'), depth='0.03'),
+                replace(
+                        contact(
+                                'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
+                                dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load', halvings='of the cells at its edge'), depth='0.03', halvings='0', accuracy='0.05'),
+                        alone=dict(halvings=['1', '2', '3'], scene=["'accurate'"]), around=[dict(cells='2'), dict(cells='4'), dict(cells='8')]),
         'tbar':
                 Plan(
                         script=os.path.join(here, '..', 'penetration', 'deep.py'), errors=['error'],

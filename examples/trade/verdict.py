@@ -49,6 +49,11 @@ class Kept:
 		"""Factors on error and time of one other value, by scene, and whether it fails."""
 		return {name: row[3:] for name, plan in plans.items() for row in fronts.alternatives(self.runs[name], plan) if row[:2] == (knob, value)}
 
+	def everywhere(self, name, knob, value):
+		"""Spans of the factors on error and time of one other value of a scene."""
+		rows = [row[3:5] for row in fronts.alternatives(self.runs[name], plans[name]) if row[:2] == (knob, value)]
+		return tuple(map(span, zip(*rows)))
+
 	def spans(self, knob, value):
 		return tuple(map(span, zip(*((error, time) for error, time, failure in self.alone(knob, value).values() if not failure))))
 
@@ -117,6 +122,7 @@ def text(found):
 	elastic, plastic = kept.factors('steps', 'column', 'column3d'), kept.factors('steps', 'slope', of=('10', '40'))
 	points, contact = kept.factors('pointsPerCell', 'slope', 'collapse', 'clay', 'seepage', 'sphere'), kept.factors('stiffness', 'sphere', 'clay', of=('100', '1000'))
 	equal, around = (next(row for row in rows('adaptive', 'results', 'footing.csv') if (row['dim'], row['cells'], row['reach']) == (2, 24, reach)) for reach in (0, 1))
+	edges, until = (kept.everywhere('clay', *setting) for setting in (('halvings', '2'), ('scene', "'accurate'")))
 	ratios = stepRatios()
 	seconds, unknowns = solving()
 	sand = Sand()
@@ -132,7 +138,7 @@ def text(found):
 **Worth it in some scenes only**
 - *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
 - *`maxSplits=2`*: run-outs; an error of {percent(split.error)} instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where less accuracy is needed; a pulse has an error of {percent(lumped.error)} in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
-- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with some halved twice, same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [adaptive](../adaptive/README.md)).
+- *Cells halved* at the edge of a rigid body (`MpmAdaptation`), twice: {edges[0]} times the error for {edges[1]} times the time; `mpm.untilAccurate` finds how often, for {until[1]} times. In boxes (`MpmGrid.refinements`): a strip footing in a large block {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with some halved twice, same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [adaptive](../adaptive/README.md)).
 - *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}).
 - *Sand that dilates*: one point a cell, stiff soil ([sand](../../plugin/docs/studies/sand.md)). With 9, 17, 33 cells over the width N_gamma is {sand.errors('sandSmooth20 sandRough20 sandSmooth30 sandRough30')} off (2 x 2 points, 20 degrees: {sand.errors('sandSmooth20x2')}), N_q {sand.errors('sandSurcharge20')}, N_c {sand.errors('sandCohesion20')}; 5, 10, 20 over a wall: K {sand.errors('sandPassive sandActive')}. `mpm.discretisationError` says {span(sand.estimates())} times that ([discretisation](../discretisation/README.md)).
 
