@@ -64,6 +64,11 @@ class Column:
 			body.shape.halfSize = body.shape.halfSize0 = tuple(np.array(body.shape.halfSize) * scale)
 			body.state.volume = body.state.volume0 = body.state.volume * scale.prod()
 
+	def top(self, dim):
+		"""Its surface there, of two cells a side."""
+		w, high = 2 * cellSize, self.height
+		return [(w, high, 0), (0, high, 0)] if dim == 2 else [[(0, high, 0), (0, high, w), (w, high, w)], [(0, high, 0), (w, high, w), (w, high, 0)]]
+
 	def error(self):
 		points = mpm.arrays()
 		volume = [b.state.volume0 for b in O.bodies]
@@ -84,9 +89,7 @@ class Consolidating(Column):
 		super().__init__(dim, ghost, confined=True, **more)
 		for material in O.materials:
 			material.conductivity, material.porosity, material.conductivityLaw = part * cellSize**2 / young * self.steps * 9810, porosity, conductivityLaw
-		w, high = 2 * cellSize, self.height
-		corners = [(w, high, 0), (0, high, 0)] if dim == 2 else [[(0, high, 0), (0, high, w), (w, high, w)], [(0, high, 0), (w, high, w), (w, high, 0)]]
-		self.engine.flow = MpmFlow(drains=[MpmDrain(surface=corners)], ghost=0 if ghost == 'none' else .01)
+		self.engine.flow = MpmFlow(drains=[MpmDrain(surface=self.top(dim))], ghost=0 if ghost == 'none' else .01)
 
 	def error(self):
 		points = mpm.arrays()
@@ -103,12 +106,11 @@ class Flooded(Column):
 
 	def __init__(self, dim, ghost, suction, n=2., **more):
 		super().__init__(dim, ghost, confined=True, weight=1e-6, steps=20, **more)
-		w, high, gammaW = 2 * cellSize, self.height, self.unit / 2
+		high, gammaW = self.height, self.unit / 2
 		for material in O.materials:
 			material.conductivity, material.porosity, material.retention = .1 * high * self.steps, .4, MpmVanGenuchten(alpha=1 / high, n=n, residual=.1)
 		mpm.assign(excessPressure=np.full(len(O.bodies), -suction * gammaW * high))
-		corners = [(w, high, 0), (0, high, 0)] if dim == 2 else [[(0, high, 0), (0, high, w), (w, high, w)], [(0, high, 0), (w, high, w), (w, high, 0)]]
-		self.engine.flow = MpmFlow(total=True, unitWeight=gammaW, drains=[MpmDrain(surface=corners)], ghost=0 if ghost == 'none' else .01)
+		self.engine.flow = MpmFlow(total=True, unitWeight=gammaW, drains=[MpmDrain(surface=self.top(dim))], ghost=0 if ghost == 'none' else .01)
 		self.first = .1 + .9 * (1 + suction**n)**(1 / n - 1)
 
 	def error(self):

@@ -10,7 +10,7 @@ namespace gimpm {
 /// Beyond the end of a line or surface, where soil would make it the end of a cut; to the sides, where there is soil to
 /// be parted [cells].
 constexpr double asideOfCut = 0.5, reachBesideCut = 0.25;
-/// By which a cut goes on beyond an end without soil, and with soil [cells].
+/// Lengths by which a cut goes on beyond an end without soil, and with soil [cells].
 constexpr double beyondEnds = 1.5, beyondTip = 0.99;
 
 /// Box around positions, wider by a margin.

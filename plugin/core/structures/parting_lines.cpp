@@ -77,13 +77,10 @@ bool isBetween(const PartingLine& line, const PointCloud<2>& cloud, const Grid<2
 	constexpr double    onLine = 0.1; // [cells]
 	const double        most   = (asideOfCut + reachBesideCut) * largestCell(grid);
 	std::array<bool, 2> found {};
-	Vec<2>              low = line.positions.front(), high = low;
-	for (const Vec<2>& position : line.positions)
-		low = low.cwiseMin(position), high = high.cwiseMax(position);
-	low.array() -= most, high.array() += most;
+	const Bounds<2>     box(line.positions, most);
 	for (std::size_t p = 0; p < cloud.size() && !(found[0] && found[1]); ++p) {
 		const Vec<2>& x = cloud.position[p];
-		if ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0) continue;
+		if (!box.contain(x)) continue;
 		const FromLine at = fromLine(line.positions, x);
 		const double   h  = cellSizeAt(grid, x);
 		if (at.away <= (asideOfCut + reachBesideCut) * h && !at.isBeyond && std::abs(at.left) > onLine * h) found[at.side > 0] = true;
@@ -122,12 +119,9 @@ std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vect
 	std::vector<int> sides(positions.size(), 0);
 	for (const PartingLine* line : lines) {
 		if (line->layer == 0) continue;
-		Vec<2> low = line->positions.front(), high = low;
-		for (const Vec<2>& position : line->positions)
-			low = low.cwiseMin(position), high = high.cwiseMax(position);
-		low.array() -= cellSize, high.array() += cellSize;
+		const Bounds<2> box(line->positions, cellSize);
 		for (std::size_t p = 0; p < positions.size(); ++p)
-			if ((positions[p] - low).minCoeff() >= 0 && (high - positions[p]).minCoeff() >= 0)
+			if (box.contain(positions[p]))
 				if (const int side = sideOf(*line, positions[p], cellSize); side != 0) sides[p] = -side * line->layer;
 	}
 	return sides;

@@ -30,7 +30,7 @@ struct PartingSheet {
 /// are nearest to it, weighted by their angles there [m].
 double sideOf(const PartingSheet&, const Vec3& position);
 
-/// As partSoil() of lines does: gives points to the right of sheets, near these, layers of their own, the grid the
+/// Gives, as partSoil() of lines does, points to the right of sheets, near these, layers of their own, the grid the
 /// nodes there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side
 /// only, or another sheet within three cells that parts it. An edge that has soil beyond it is the edge of a cut,
 /// around which soil is whole: as of the nodes next to it.

@@ -43,6 +43,22 @@ AttachedPositions<Dim> attachTo(
 	return found;
 }
 
+/// For each vertex the mean of the middles of its pieces.
+template <int Dim> std::vector<Vec<Dim>> besideVertices(const Surface<Dim>& surface)
+{
+	std::vector<Vec<Dim>> beside(surface.vertices.size(), Vec<Dim>::Zero());
+	std::vector<int>      pieces(beside.size(), 0);
+	for (const auto& piece : surface.pieces)
+		for (const int v : piece) {
+			for (const int other : piece)
+				beside[v] += surface.vertices[other] / Dim;
+			++pieces[v];
+		}
+	for (std::size_t v = 0; v < beside.size(); ++v)
+		beside[v] = pieces[v] > 0 ? Vec<Dim>(beside[v] / pieces[v]) : surface.vertices[v];
+	return beside;
+}
+
 } // namespace
 
 template <int Dim>
@@ -66,25 +82,15 @@ AttachedPositions<Dim> attachPositions(
 	return found;
 }
 
-template <int Dim> std::vector<Vec<Dim>> besideVertices(const Surface<Dim>& surface)
+template <int Dim> AttachedPositions<Dim> attachVertices(const Surface<Dim>& surface, const StepContext<Dim>& step, const std::string& name, int layer)
 {
-	std::vector<Vec<Dim>> beside(surface.vertices.size(), Vec<Dim>::Zero());
-	std::vector<int>      pieces(beside.size(), 0);
-	for (const auto& piece : surface.pieces)
-		for (const int v : piece) {
-			for (const int other : piece)
-				beside[v] += surface.vertices[other] / Dim;
-			++pieces[v];
-		}
-	for (std::size_t v = 0; v < beside.size(); ++v)
-		beside[v] = pieces[v] > 0 ? Vec<Dim>(beside[v] / pieces[v]) : surface.vertices[v];
-	return beside;
+	return attachPositions(surface.vertices, step, name, layer, step.grid.parting ? besideVertices(surface) : std::vector<Vec<Dim>>());
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template AttachedPositions<Dim> attachPositions(                                                                                                       \
 	        const std::vector<Vec<Dim>>&, const StepContext<Dim>&, const std::string&, int, const std::vector<Vec<Dim>>&);                                 \
-	template std::vector<Vec<Dim>> besideVertices(const Surface<Dim>&);
+	template AttachedPositions<Dim> attachVertices(const Surface<Dim>&, const StepContext<Dim>&, const std::string&, int);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

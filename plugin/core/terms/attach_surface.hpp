@@ -23,8 +23,8 @@ AttachedPositions<Dim> attachPositions(
         const std::vector<Vec<Dim>>& positions, const StepContext<Dim>&, const std::string& name, int layer = layerOfPosition,
         const std::vector<Vec<Dim>>& beside = {});
 
-/// For each vertex of a surface the mean of the middles of its pieces: the end of one that meets a wall may have got a
-/// little behind it.
-template <int Dim> std::vector<Vec<Dim>> besideVertices(const Surface<Dim>&);
+/// Attachments of the vertices of a surface, each beside the middles of its pieces: the end of one that meets a wall
+/// may have got a little behind it.
+template <int Dim> AttachedPositions<Dim> attachVertices(const Surface<Dim>&, const StepContext<Dim>&, const std::string& name, int layer = layerOfPosition);
 
 } // namespace gimpm

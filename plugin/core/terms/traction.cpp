@@ -70,7 +70,7 @@ template <int Dim>
 Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const StepContext<Dim>& step)
         : load_(load), isRing_(step.grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
-	auto attached = attachPositions(load_.surface.vertices, step, load_.name, load_.layer, besideVertices(load_.surface));
+	auto attached = attachVertices(load_.surface, step, load_.name, load_.layer);
 	attached_     = std::move(attached.positions);
 	obstacle_     = std::move(attached.obstacle);
 	layer_        = attached.layer;

@@ -32,12 +32,6 @@ template <int Dim> struct Quadrature {
 	}
 };
 
-/// The number of the leaf that a contact point is attached to.
-template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
-{
-	return find(basis.populatedLeaves(), Grid<Dim>::key(grid.first(at.cell * (1 << at.level)), at.level, layer));
-}
-
 } // namespace
 
 template <int Dim>
@@ -144,8 +138,8 @@ template <int Dim> void BodyContact<Dim>::makeLaws(const StepContext<Dim>& step)
 		for (const Near& near : contactPoint.near)
 			if (const double away = squaredDistance(pair(contactPoint.start, meeting.master, near.piece, start_)); away < least)
 				least = away, nearest = &near;
-		leaves.push_back({ leafAt(contactPoint.at, step.basis, step.grid, system_.bodies[meeting.slave].layer),
-		                   leafAt(nearest->foot, step.basis, step.grid, system_.bodies[meeting.master].layer) });
+		const auto leafOf = [&](const Attachment<Dim>& at) { return find(step.basis.populatedLeaves(), at.leaf(step.grid)); };
+		leaves.push_back({ leafOf(contactPoint.at), leafOf(nearest->foot) });
 		for (const int leaf : leaves.back())
 			isAskedFor[leaf] = 1;
 	}

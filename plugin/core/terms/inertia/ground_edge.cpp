@@ -25,7 +25,7 @@ template <int Dim> std::vector<int> nodesOf(const std::vector<Attachment<Dim>>& 
 
 template <int Dim> EdgeDrag<Dim>::EdgeDrag(GroundEdge<Dim>& edge, const StepContext<Dim>& step) : edge_(edge)
 {
-	auto attached = attachPositions(edge_.surface.vertices, step, edge_.name);
+	auto attached = attachVertices(edge_.surface, step, edge_.name);
 	attached_     = std::move(attached.positions);
 	obstacle_     = std::move(attached.obstacle);
 	if (obstacle_.empty() && !edge_.hasBegun) obstacle_ = takeOver(step);
@@ -125,7 +125,7 @@ template <int Dim> void EdgeDrag<Dim>::commit(const Eigen::VectorXd& d, const Ei
 
 template <int Dim> EdgeSprings<Dim>::EdgeSprings(GroundEdge<Dim>& edge, const StepContext<Dim>& step) : edge_(edge)
 {
-	auto attached = attachPositions(edge_.surface.vertices, step, edge_.name);
+	auto attached = attachVertices(edge_.surface, step, edge_.name);
 	attached_     = std::move(attached.positions);
 	obstacle_     = std::move(attached.obstacle);
 }

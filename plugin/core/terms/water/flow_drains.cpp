@@ -98,7 +98,7 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const StepCont
 {
 	const Drain<Dim>& drain   = water_.drains[number];
 	const auto&       surface = drain.surface;
-	const auto        corners = attachPositions(surface.vertices, step, drain.name, layerOfPosition, besideVertices(surface));
+	const auto        corners = attachVertices(surface, step, drain.name);
 	if (!corners.obstacle.empty()) return corners.obstacle;
 	vertices_.insert(vertices_.end(), corners.positions.begin(), corners.positions.end());
 	const auto            positions = quadratureOf(surface, step.grid);

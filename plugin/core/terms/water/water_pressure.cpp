@@ -84,7 +84,7 @@ template <int Dim> double TabulatedWater<Dim>::sincePeriod(const Index<Dim>& nod
 	return gain;
 }
 
-/// By the cells of the leaf there, or of the next size of which all values are known.
+/// Interpolates in cells of the size of the leaf there, or of the next size of which all values are known.
 template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::around(const Vec<Dim>& x, const Vec<Dim>& half) const
 {
 	const Vec<Dim> from = (x - grid_.origin) / grid_.cellSize;

@@ -152,16 +152,16 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	return meeting;
 }
 
-// Of water that passes as in soil, by what conducts least in the two bodies.
+// Leakage of a meeting; where water passes as in soil, by what conducts least in the two bodies.
 template <int Dim> Real MeetingBodies<Dim>::leakageOf(const MpmBodyContact& contact, const Surroundings<Dim>& around, const gimpm::Division& division) const
 {
 	const auto flow = MpmFlow::of(analysis);
 	if (!flow) return 0;
 	if (std::isfinite(contact.permittivity)) return contact.permittivity / flow->unitWeight;
-	Real least = std::numeric_limits<Real>::infinity();
+	const int one = grid.bodyNamed(contact.between[0]), other = grid.bodyNamed(contact.between[1]);
+	Real      least = std::numeric_limits<Real>::infinity();
 	for (const MaterialPoint& point : around.points)
-		for (const string& name : contact.between)
-			if (point.state->body == grid.bodyNamed(name)) least = std::min(least, point.material->conductivity.horizontal);
+		if (point.state->body == one || point.state->body == other) least = std::min(least, point.material->conductivity.horizontal);
 	least = -division.largest(-least);
 	return gimpm::conductanceOfSoil * least / grid.smallestCell() / flow->unitWeight;
 }

@@ -279,7 +279,7 @@ template <int Dim> void Contacts<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm
 		partBy(gimpm::sheetsOf(system->bodies, model.grid), cloud, model.grid);
 }
 
-// By lines or surfaces of thin bodies.
+// Parts the soil by lines or surfaces of thin bodies.
 template <int Dim> template <class Surface> void Contacts<Dim>::partBy(vector<Surface> surfaces, gimpm::PointCloud<Dim>& cloud, gimpm::Grid<Dim>& grid)
 {
 	vector<std::conditional_t<Dim == 2, gimpm::PartingLine, gimpm::PartingSheet>*> those;

@@ -64,7 +64,7 @@ public:
 		v("lastDuration", &MpmFlow::lastDuration, hidden, "", AnyValue());
 	}
 
-	// That of an analysis; null: none flows.
+	// The flow of an analysis; null: there is none.
 	static shared_ptr<MpmFlow> of(const Analysis&);
 
 	// The attributes must go together, too.
