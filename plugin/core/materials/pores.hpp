@@ -10,6 +10,11 @@ struct Retention;
 struct Pores {
 	enum class Law { constant, kozenyCarman, logarithmic };
 
+	/// Parameters of the retention curve of a point, in place of its material's.
+	struct OwnCurve {
+		double alpha, exponent, residual, saturated;
+	};
+
 	/// At the initial porosity, over the weight of water [m2/(Pa s)].
 	double conductivity = std::numeric_limits<double>::quiet_NaN();
 	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
@@ -19,6 +24,8 @@ struct Pores {
 	bool             areRigid      = false;   ///< water passes without pressing on the grains, and their strain displaces no water
 	const Retention* retention     = nullptr; ///< null: the pores are always full
 	long             curve         = -1;      ///< its number among the curves of the scene, the same in all processes; -1: there is none
+	bool             hasOwnCurve   = false;   ///< `retention` is that of the number with what `ownCurve` has
+	OwnCurve         ownCurve {};
 	double           verticalRatio = 1;       ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
 	double           weightPart    = 1;       ///< part of the weight of the soil that acts [-], in a stage of construction
 

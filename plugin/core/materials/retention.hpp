@@ -12,7 +12,8 @@ namespace gimpm {
 ///     Brooks and Corey: S_e = (a s)^-n where a s > 1          table: linear between its suctions
 ///
 /// Relative permeability k_r: by Mualem's integral of the curve; exp(-a s); S_e^(3 + 2/n); or a table, linear in its
-/// logarithm.
+/// logarithm. In a soil that deforms suction counts times a power of the void ratio over the initial one (Gallipoli
+/// and others 2003), see suctionFactor().
 struct Retention {
 	enum class Curve { vanGenuchten, exponential, brooksCorey, table };
 	enum class Permeability { mualem, exponential, brooksCorey, table };
@@ -29,6 +30,7 @@ struct Retention {
 	double       exponent     = 0;            ///< n [-]
 	double       residual = 0, saturated = 1; ///< degrees of saturation: the least and the largest
 	Table        retained {}, conducted {};   ///< degree of saturation and relative permeability
+	double       voidExponent = 0;            ///< power of the void ratio over the initial one that multiplies suction [-]
 
 	/// Part of the water between the residual and the largest saturation.
 	Value effective(double pressure) const;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/parameters.hpp"
 #include "engine/materials/laws.hpp"
+#include "engine/materials/retention/curveParameters.hpp"
 #include <algorithm>
+#include <array>
 
 namespace yade {
 
@@ -25,6 +27,12 @@ const vector<Parameter>& allParameters()
 		{ "conductivity", "m/s", "hydraulic conductivity" },
 		{ "verticalConductivity", "m/s", "vertical hydraulic conductivity" },
 		{ "porosity", "-", "porosity" },
+		{ "alpha", "1/m", "inverse of a head of suction" },
+		{ "entry", "m", "head of suction at which air enters" },
+		{ "n", "-", "exponent of the retention curve" },
+		{ "exponent", "-", "exponent of the retention curve" },
+		{ "residual", "-", "residual degree of saturation" },
+		{ "saturated", "-", "largest degree of saturation" },
 	};
 	return all;
 }
@@ -39,9 +47,14 @@ const vector<ParameterOfClass>& parametersOfPores()
 	return all;
 }
 
+static std::array<const vector<ParameterOfClass>*, 3> allOf(const MpmMaterial& material)
+{
+	return { &parametersOf(material), &parametersOfPores(), &parametersOfCurve(material) };
+}
+
 const ParameterOfClass* findParameter(const MpmMaterial& material, std::string_view name)
 {
-	for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+	for (const auto* known : allOf(material))
 		for (const ParameterOfClass& p : *known)
 			if (p.name == name) return &p;
 	return nullptr;
@@ -57,7 +70,7 @@ namespace {
 	[[noreturn]] void refuseName(const string& name, const MpmMaterial& material)
 	{
 		string names;
-		for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+		for (const auto* known : allOf(material))
 			for (const ParameterOfClass& p : *known)
 				names += (names.empty() ? "" : ", ") + string(p.name);
 		throw std::invalid_argument(
@@ -69,9 +82,12 @@ namespace {
 const MpmMaterial& OwnMaterial::of(const MpmMaterial& material, const OwnParameters& parameters)
 {
 	if (parameters.empty()) return material;
-	if (original != &material) own = copyOf(material);
+	if (original != &material) {
+		own = copyOf(material);
+		renewCurve(*own);
+	}
 	original = &material;
-	for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+	for (const auto* known : allOf(material))
 		for (const ParameterOfClass& p : *known)
 			p.in(*own) = p.valueIn(material);
 	for (const auto& [name, value] : parameters) {

@@ -16,6 +16,7 @@ public:
 	Real                            volume         = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Real                            volume0        = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Real                            porePressure   = std::numeric_limits<Real>::quiet_NaN(); // there is no water
+	Real                            pressureOnGrains = std::numeric_limits<Real>::quiet_NaN(); // that of the pores
 	Real                            excessPressure = 0;
 	Real                            saturation     = std::numeric_limits<Real>::quiet_NaN();                     // not known
 	Vector3r                        waterFlux      = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
@@ -67,7 +68,9 @@ public:
 		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
 		  finite);
 		v("porePressure", &MpmState::porePressure, readonly,
-		  "Pressure of water in the pores [Pa] at the end of the last step (MpmWater, and *excessPressure*): a result, less which *stress* is total stress; NaN without water.");
+		  "Pressure of water in the pores [Pa] at the end of the last step (MpmWater, and *excessPressure*): a result, NaN without water. In full pores *stress* less it is total stress.");
+		v("pressureOnGrains", &MpmState::pressureOnGrains, readonly,
+		  "Part of *porePressure* [Pa] that acts on the grains (Bishop), with *MpmFlow.total*: a result, less which *stress* is total stress; NaN without: all of it.");
 		v("excessPressure", &MpmState::excessPressure, 0,
 		  "Pressure [Pa] in the pores over that of still water (MpmWater): of water that cannot leave (*MpmMaterial.undrained*), or that flows (*MpmImplicitEngine.flow*); *porePressure* has it, too.",
 		  finite);

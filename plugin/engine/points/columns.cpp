@@ -129,7 +129,11 @@ namespace {
 		return isInPlane ? strainOf<2>(d.topLeftCorner<2, 2>(), d(2, 2) * (2 + d(2, 2))) : strainOf<3>(d, 0);
 	}
 
-	Matrix3r totalStress(Point p) { return p.state->stress - p.state->porePressure * Matrix3r::Identity(); }
+	Matrix3r totalStress(Point p)
+	{
+		const Real push = std::isnan(p.state->pressureOnGrains) ? p.state->porePressure : p.state->pressureOnGrains;
+		return p.state->stress - push * Matrix3r::Identity();
+	}
 
 	Real meanStress(Point p) { return p.state->stress.trace() / 3; }
 

@@ -91,6 +91,7 @@ void UnitedHalves::assignTo(const MaterialPoint& lower, const MaterialPoint& upp
 	l.porePressure   = mean(l.porePressure, u.porePressure, share);
 	l.excessPressure = mean(l.excessPressure, u.excessPressure, share);
 	l.saturation     = mean(l.saturation, u.saturation, share);
+	l.pressureOnGrains = mean(l.pressureOnGrains, u.pressureOnGrains, share);
 	l.waterFlux      = mean(l.waterFlux, u.waterFlux, share);
 	for (const auto& [variable, value] : internals)
 		l.setInternal(variable->name, value);

@@ -83,6 +83,13 @@ namespace {
 				expectTangent(ring);
 				expectTangent(plane, 0.1);
 			}
+		Retention deforming    = sand;
+		deforming.voidExponent = 2.5;
+		DryingSoil<2> plane(0.5, { 1.7, 1.2 }, deforming, 1e6), ring(0.5, { 1.7, 1.2 }, deforming, 1e6, true);
+		DryingSoil<3> space(0.5, { 1.2, 1.7, 1 }, deforming, 1e6);
+		expectTangent(plane);
+		expectTangent(space);
+		expectTangent(ring);
 	}
 
 	/// One cell wide, one metre high, so stiff that it hardly moves.

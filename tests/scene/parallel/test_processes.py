@@ -159,10 +159,12 @@ O.engines = [MpmImplicitEngine(grid=grid, boundaries=held, loads=[load], loadCur
         newton=MpmNewton(tolerance=1e-11), verbosity=0)]
 ''' + isWhole * '''
 O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=1900, conductivity=2e-6, porosity=.4, retention=MpmGardner(alpha=.5), label='top'))
-O.materials[0].retention = MpmVanGenuchten(alpha=1, n=2, residual=.1)
+O.materials[0].retention = MpmVanGenuchten(alpha=1, n=2, residual=.1, voidExponent=2)
 for body in O.bodies:
 	if body.state.pos[1] > 3: body.material = O.materials[1]
 mpm.assign(excessPressure=[1e4 * (1 - y) for y in mpm.arrays()['pos'][:, 1]])
+ids = [body.id for body in O.bodies if body.material.label == 'top']
+mpm.assign(ids=ids, alpha=[.3 + .04 * O.bodies[i].state.pos[0] for i in ids])
 solver = O.engines[0]
 solver.gravity, solver.flow = (0, -10, 0), MpmFlow(total=True, unitWeight=1e4, drains=[MpmDrain(surface=[(10, 4), (0, 4)], rain=1e-6)])
 ''' + '''

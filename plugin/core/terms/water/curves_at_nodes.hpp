@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Retention curves at the pressures of nodes, which all points of a soil share.
+// Retention curves at the pressures of nodes, which the points of a soil share unless each has its own.
 #pragma once
 #include "core/terms/water/unsaturated_point.hpp"
 
@@ -12,10 +12,14 @@ public:
 	template <int Dim> CurvesOfNodes(const std::vector<PorePoint>&, const CloudBasis<Dim>&);
 
 	/// Values by curve and node; one for nodes where a curve is not needed, and for full pores.
-	using Wetness = std::vector<std::vector<NodeWetness>>;
+	struct Wetness {
+		std::vector<std::vector<NodeWetness>> byCurve {};
+		Eigen::VectorXd                       pressures {};
+	};
 	Wetness at(const Eigen::VectorXd& pressures) const;
 
-	const std::vector<NodeWetness>& of(int point, const Wetness& all) const { return all[ofPoint_[point]]; }
+	/// Null for a point whose curve is its own.
+	const std::vector<NodeWetness>* of(int point, const Wetness& all) const { return ofPoint_[point] < 0 ? nullptr : &all.byCurve[ofPoint_[point]]; }
 
 private:
 	std::vector<const Retention*> curves_;

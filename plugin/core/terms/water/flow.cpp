@@ -97,8 +97,11 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 	const auto& cloud    = step.cloud;
 	auto        pressure = water.pressure;
 	division_.extend(pressure), division_.extend(ownPores_);
-	for (std::size_t p = division_.ownOf(cloud.size()); p < ownPores_.size(); ++p) // pointers of other processes
-		ownPores_[p].retention = ownPores_[p].curve < 0 ? nullptr : water_.whole->curves[ownPores_[p].curve].get();
+	for (std::size_t p = division_.ownOf(cloud.size()); p < ownPores_.size(); ++p) { // pointers of other processes
+		Pores& pores    = ownPores_[p];
+		pores.retention = pores.curve < 0 ? nullptr : water_.whole->curves[pores.curve].get();
+		if (pores.hasOwnCurve) pores.retention = &ownCurves_.emplace_back(ownCurveOf(pores, *pores.retention));
+	}
 	points_.reserve(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		const double J    = cloud.volumeRatio(p);
@@ -119,8 +122,8 @@ static std::vector<double> relativePermeabilities(const std::vector<PorePoint>& 
 	std::vector<double> relative;
 	for (std::size_t p = 0; p < points.size(); ++p) {
 		const Pores& pores = *points[p].pores;
-		relative.push_back(permeabilityOf(pores, points[p].pressure).value);
-		if (pores.retention) compliance[p] *= std::pow(pores.retention->effective(points[p].pressure).value, 2);
+		relative.push_back(permeabilityOf(pores, points[p].pressure, points[p].ratio).value);
+		if (pores.retention) compliance[p] *= std::pow(pores.retention->effective(suctionFactor(pores, points[p].ratio) * points[p].pressure).value, 2);
 	}
 	return relative;
 }

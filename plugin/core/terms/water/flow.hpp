@@ -9,6 +9,7 @@
 #include "core/terms/water/curves_at_nodes.hpp"
 #include "core/terms/water/flow_point.hpp"
 #include "core/terms/water/soil_water.hpp"
+#include <deque>
 #include <memory>
 #include <utility>
 
@@ -82,7 +83,23 @@ private:
 	UnsaturatedPoint<Dim> unsaturated(
 	        int p, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const CurvesOfNodes::Wetness& now) const
 	{
-		return { *water_.whole, points_[p], curves_->of(p, before_), curves_->of(p, now), correction_[p], patch, f, s };
+		const PorePoint& point = points_[p];
+		if (const auto *first = curves_->of(p, before_), *last = curves_->of(p, now); first)
+			return { *water_.whole,  point, [&](int n) { return (*first)[n].saturation.value; }, [&](int n) { return (*last)[n]; }, now.pressures,
+				 correction_[p], patch, f, s };
+		const double J = s.poreRatio(point);
+		return { *water_.whole,
+			 point,
+			 [&](int n) { return saturationOf(*point.pores, before_.pressures[n], point.ratio).value; },
+			 [&](int n) {
+				 const double P = now.pressures[n];
+				 return NodeWetness { saturationOf(*point.pores, P, J), permeabilityOf(*point.pores, P, J) };
+			 },
+			 now.pressures,
+			 correction_[p],
+			 patch,
+			 f,
+			 s };
 	}
 	/// Conductivity of a cell in the direction of a unit vector.
 	double conductivityAlong(int cell, const Vec<Dim>& direction) const
@@ -119,6 +136,7 @@ private:
 	NearNodes<Dim>               near_;
 	bool                         isExact_;
 	std::vector<Pores>           ownPores_;         ///< pores of each point of the cloud, where some have their own; else empty
+	std::deque<Retention>        ownCurves_;        ///< curves of points of other processes that have their own
 	std::vector<PorePoint>       points_;           ///< points of the cloud
 	std::vector<double>          cellConductivity_; ///< horizontal
 	std::vector<double>          cellRise_;         ///< vertical less horizontal conductivity; empty where they are the same everywhere

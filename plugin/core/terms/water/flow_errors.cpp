@@ -65,7 +65,8 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 			const PorePoint& point = points_[basis_.order[i]];
 			ofMotion += point.volume * moved.squaredNorm(), ofPressure += point.volume * pressed * pressed, volume += point.volume;
 			if (!curves_) continue;
-			const double wetted = saturationOf(*point.pores, pressure).value - saturationOf(*point.pores, pressure - part * pressed).value;
+			const double wetted = saturationOf(*point.pores, pressure, point.ratio).value
+			        - saturationOf(*point.pores, pressure - part * pressed, point.ratio).value;
 			ofSaturation += point.volume * wetted * wetted;
 		}
 	ofMotion = division_.sum(ofMotion), ofPressure = division_.sum(ofPressure), volume = division_.sum(volume);

@@ -108,7 +108,9 @@ template <int Dim> struct FlowPoint {
 		}
 		if (isPossible(point)) kappa = point.pores->at(point.ratio * J);
 	}
-	bool isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }
+	/// Volume over the initial one by which pores change: that of the step's begin where they are rigid.
+	double poreRatio(const PorePoint& point) const { return point.ratio * (1 + point.coupling() * (J - 1)); }
+	bool   isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }
 };
 
 /// Functions of a point at an iterate: all that forces and derivatives need of them.

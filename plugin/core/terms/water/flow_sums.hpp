@@ -136,10 +136,12 @@ public:
 			if (patch.node[n] < 0) continue;
 			const int a        = patchShapes<Dim>[patch.span].inWindow[n];
 			wet_.saturation[a] = u.saturation[n], wet_.capacity[a] = u.capacity[n], wet_.stored[a] = u.stored[n], wet_.opening[a] = u.opening[n];
+			wet_.growth[a] = u.growth[n];
 		}
 		addForcesUnsaturated(point, s, u);
 		if (!blocks_) return;
 		addPush(point, s, u);
+		if (u.pushGrowth != 0) addPushGrowth(point, s, u);
 		if (isAxisymmetric_) addRing(point, s, u.push.value);
 		addStorage(point, s, u);
 		addDarcy(point, s, u);
@@ -171,7 +173,7 @@ private:
 		Row value, hoop, along, gradient[Dim], dilation[Dim], vertical;
 	};
 	struct Wetness {
-		Row saturation, capacity, stored, opening;
+		Row saturation, capacity, growth, stored, opening;
 	};
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
@@ -311,15 +313,30 @@ private:
 			}
 		}
 	}
+	/// Derivative of the pressure on the grains as the curve changes with the pores.
+	void addPushGrowth(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u) const
+	{
+		const double grows = point.coupling() * point.volume * s.J * u.pushGrowth;
+		const auto&  code  = Window<Dim>::get().code;
+		for (int m = 0; m < count_; ++m)
+			for (int n = 0; n < count_; ++n) {
+				const int a = own_[m], b = own_[n];
+				Mat<Dim>  block;
+				for (int i = 0; i < Dim; ++i)
+					for (int k = 0; k < Dim; ++k)
+						block(i, k) = -grows * at_.dilation[i][a] * at_.dilation[k][b];
+				sum_.K->add(node_[a], node_[b], code[a][b], block);
+			}
+	}
 	/// Derivatives of the content, whose growth by displacements has weight, too.
 	void addStorage(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
 		const double grown = point.coupling() * point.volume * s.J * s.density, V0 = point.volume / point.ratio,
-		             weighs = grown * point.pores->weightPart * u.content / u.filled;
+		             weighs = grown * point.pores->weightPart * u.content / u.filled + V0 * point.pores->weightPart * u.contentGrowth;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
-				addTimes(pu_[i][a], grown * wet_.saturation[a] * at_.value[a], at_.dilation[i]);
+				addTimes(pu_[i][a], (grown * wet_.saturation[a] + V0 * wet_.growth[a]) * at_.value[a], at_.dilation[i]);
 				addTimes(grown_[i][a], weighs * at_.value[a], at_.dilation[i]);
 			}
 			pp_[a][a] += V0 * at_.value[a] * wet_.capacity[a];
@@ -329,7 +346,7 @@ private:
 	void addDarcy(const PorePoint& point, const FlowPoint<Dim>& s, const UnsaturatedPoint<Dim>& u)
 	{
 		const double full = duration_ * point.volume * s.J * s.density * s.kappa.value, flow = full * u.permeability,
-		             led = flow * (1 + s.kappa.logDerivative);
+		             led = flow * (1 + s.kappa.logDerivative) + full * u.openingGrowth;
 		for (int m = 0; m < count_; ++m) {
 			const int a        = own_[m];
 			Row       products = {};

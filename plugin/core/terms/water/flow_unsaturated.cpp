@@ -17,9 +17,11 @@ template <int Dim> void Flow<Dim>::beginUnsaturated(const Eigen::VectorXd& P)
 			const PointFunctions<Dim> f(basis_, i, patch);
 			const int                 p          = basis_.order[i];
 			double                    saturation = 0;
+			const auto* const         shared     = curves_->of(p, before_);
 			for (int n = 0; n < f.count; ++n) {
-				if (patch.node[n] < 0) continue;
-				saturation += f.value[n] * curves_->of(p, before_)[patch.node[n]].saturation.value;
+				const int a = patch.node[n];
+				if (a < 0) continue;
+				saturation += f.value[n] * (shared ? (*shared)[a].saturation : saturationOf(*points_[p].pores, P[a], points_[p].ratio)).value;
 			}
 			if (!known.empty() && !std::isnan(known[p])) correction_[p] = (known[p] - saturation) * points_[p].content;
 		}
@@ -31,7 +33,7 @@ template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
 	const auto            wetness = curves_->at(P);
 	double                stored  = 0;
 	const int             own     = division_.ownOf(points_.size());
-	water_.whole->saturation.resize(own);
+	water_.whole->saturation.resize(own), water_.whole->push.resize(own);
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int                 p = basis_.order[i];
@@ -42,6 +44,7 @@ template <int Dim> void Flow<Dim>::commitSaturation(const State& state)
 			for (int n = 0; n < f.count; ++n)
 				stored += points_[p].volume / points_[p].ratio * f.value[n] * u.stored[n];
 			water_.whole->saturation[p] = u.content / u.filled;
+			water_.whole->push[p]       = u.push.value;
 			water_.flux[p]              = -s.kappa.value * u.permeability * conducted(*points_[p].pores, water_.vertical, u.drive);
 		}
 	water_.stored = division_.sum(stored);

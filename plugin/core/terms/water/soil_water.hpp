@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -63,8 +64,10 @@ template <int Dim> struct WholeWater {
 	/// Tolerance on the error that the length of a step leaves in the saturation [-].
 	double              saturationTolerance = std::numeric_limits<double>::infinity();
 	std::vector<double> saturation {}; ///< of each point, as the last accepted step has left it; NaN: that of its pressure
+	std::vector<double> push {};       ///< pressure on the grains of each point then [Pa]
 
-	std::vector<std::shared_ptr<const Retention>> curves {}; ///< those that Pores refer to
+	std::vector<std::shared_ptr<const Retention>> curves {};    ///< those that Pores refer to
+	std::deque<Retention>                         ownCurves {}; ///< those of points that have their own
 };
 
 template <int Dim> struct SoilWater {

@@ -6,6 +6,7 @@
 #include "engine/analysis/last_increment.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
+#include "engine/materials/retention/curveParameters.hpp"
 
 namespace yade {
 
@@ -105,7 +106,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (from->total) beginWhole(around);
 	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
 	pressuresAreNew = model.division->largest(pressuresAreNew ? 1 : 0) > 0;
-	if (pressuresAreNew) fillNewPoints(around.cloud.material, *model.division);
+	if (pressuresAreNew) fillNewPoints(around.cloud, *model.division);
 	takeNodes();
 	takeDrains(model, around);
 	const Real modulus = meanModulus(model, around);
@@ -158,18 +159,22 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 {
 	const auto& points = around.points;
 	const bool  differ = !division.isWhole() || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) {
-                return point.state->parameter("conductivity") || point.state->parameter("verticalConductivity") || point.state->parameter("porosity");
+                const auto& own = point.state->parameters;
+                return hasOwnCurve(*point.material, own) || std::any_of(parametersOfPores().begin(), parametersOfPores().end(), [&](const auto& known) {
+                               return point.state->parameter(known.name);
+                       });
         });
 	OwnMaterial own;
 	for (size_t p = 0; p < points.size(); ++p) {
 		const size_t material = around.cloud.material[p];
 		if (water.pores.size() <= material) water.pores.resize(material + 1);
 		gimpm::Pores& ofMaterial = water.pores[material];
-		if (differ) water.ownPores.push_back(poresOf(points[p], own.of(*points[p].material, points[p].state->parameters), from->unitWeight));
+		const MpmMaterial& asPoint = differ ? own.of(*points[p].material, points[p].state->parameters) : *points[p].material;
+		if (differ) water.ownPores.push_back(poresOf(points[p], asPoint, from->unitWeight));
 		else if (std::isnan(ofMaterial.porosity))
-			ofMaterial = poresOf(points[p], *points[p].material, from->unitWeight);
+			ofMaterial = poresOf(points[p], asPoint, from->unitWeight);
 		gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
-		takeCurve(points[p], pores);
+		takeCurve(points[p], asPoint, pores);
 		if (water.whole) water.whole->saturation.push_back(points[p].state->saturation), pressuresAreNew |= std::isnan(points[p].state->saturation);
 		water.pressure.push_back(points[p].state->excessPressure);
 		const Real J = around.cloud.volumeRatio(p);
@@ -302,7 +307,7 @@ template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 		MpmState& state      = *step.points[p].state;
 		state.excessPressure = water.pressure[p];
 		state.porePressure   = (std::isnan(state.porePressure) ? 0 : state.porePressure) + water.pressure[p];
-		if (water.whole) state.saturation = water.whole->saturation[p];
+		if (water.whole) state.saturation = water.whole->saturation[p], state.pressureOnGrains = water.whole->push[p];
 		if ((still || water.whole) && !step.points[p].material->retention) lowest = std::min(lowest, state.porePressure);
 		state.waterFlux.setZero();
 		state.waterFlux.template head<Dim>() = water.flux[p];

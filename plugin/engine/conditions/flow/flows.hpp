@@ -24,9 +24,9 @@ private:
 	std::unique_ptr<gimpm::Term<Dim>> frozen(const gimpm::StepContext<Dim>&) const;
 	void                              beginWhole(const Surroundings<Dim>&);
 	int                               curveOf(const MpmRetention&);
-	void                              takeCurve(const MaterialPoint&, gimpm::Pores&);
+	void                              takeCurve(const MaterialPoint&, const MpmMaterial& asPoint, gimpm::Pores&);
 	void                              takePoints(const Surroundings<Dim>&, const gimpm::Division&);
-	void                              fillNewPoints(const vector<int>& materials, const gimpm::Division&);
+	void                              fillNewPoints(const gimpm::PointCloud<Dim>&, const gimpm::Division&);
 	void                              takeNodes();
 	void                              takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
 	Real                              meanModulus(const gimpm::Model<Dim>&, const Surroundings<Dim>&);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/flow/pointMass.hpp"
-#include "core/materials/retention.hpp"
+#include "core/terms/water/unsaturated_point.hpp"
+#include "engine/materials/parameters.hpp"
+#include <optional>
 
 namespace yade {
 
@@ -15,8 +17,12 @@ PointMass pointMass(const shared_ptr<MpmFlow>& flow, const Vector3r& gravity)
 		const Real      porosity   = own ? *own : point.material->porosity;
 		Real            saturation = state.saturation;
 		if (std::isnan(saturation)) {
-			const auto& curve = point.material->retention;
-			saturation        = curve ? curve->law(weight).saturation(state.excessPressure).value : 1;
+			OwnMaterial        own;
+			const auto&        curve = own.of(*point.material, state.parameters).retention;
+			const auto         law   = curve ? std::optional(curve->law(weight)) : std::nullopt;
+			gimpm::Pores       pores;
+			pores.porosity = porosity, pores.retention = law ? &*law : nullptr;
+			saturation = gimpm::saturationOf(pores, state.excessPressure, state.volume / state.volume0).value;
 		}
 		return massOfFull(point) + density * (saturation * (state.volume - (1 - porosity) * state.volume0) - porosity * state.volume0);
 	};

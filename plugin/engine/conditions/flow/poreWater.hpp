@@ -10,7 +10,8 @@ namespace yade {
 // Bishop's factor that a flow asks for.
 gimpm::Bishop bishopOf(const MpmFlow&);
 
-// (degrees of saturation, pressures on the grains [Pa], relative permeabilities) as bytearrays.
-py::tuple poreWaterForPython(const MpmFlow&, const MpmMaterial&, const py::object& pressures);
+// (degrees of saturation, pressures on the grains [Pa], relative permeabilities) as bytearrays, of a point with these
+// parameters of its own, whose volume is that many times the initial one.
+py::tuple poreWaterForPython(const MpmFlow&, const MpmMaterial&, const py::object& pressures, const py::dict& parameters, Real volumeRatio);
 
 } // namespace yade

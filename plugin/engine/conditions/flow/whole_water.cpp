@@ -4,6 +4,7 @@
 #include "core/terms/water/unsaturated_point.hpp"
 #include "engine/conditions/flow/flows.hpp"
 #include "engine/conditions/flow/poreWater.hpp"
+#include "engine/materials/retention/curveParameters.hpp"
 
 namespace yade {
 
@@ -31,8 +32,8 @@ template <int Dim> int Flows<Dim>::curveOf(const MpmRetention& retention)
 	return found->second;
 }
 
-// None: the pores of the point are always full.
-template <int Dim> void Flows<Dim>::takeCurve(const MaterialPoint& point, gimpm::Pores& pores)
+// None: the pores of the point are always full. The material `asPoint` has what is the point's own.
+template <int Dim> void Flows<Dim>::takeCurve(const MaterialPoint& point, const MpmMaterial& asPoint, gimpm::Pores& pores)
 {
 	const MpmMaterial& material = *point.material;
 	if (!material.retention) return;
@@ -42,16 +43,21 @@ template <int Dim> void Flows<Dim>::takeCurve(const MaterialPoint& point, gimpm:
 		        + "' has a retention curve, which needs MpmFlow(total=True): then excessPressure is the whole pressure of the water.");
 	pores.curve     = curveOf(*material.retention);
 	pores.retention = water.whole->curves[pores.curve].get();
+	if (!hasOwnCurve(material, point.state->parameters)) return;
+	const gimpm::Retention own = asPoint.retention->law(from->unitWeight);
+	pores.hasOwnCurve          = true;
+	pores.ownCurve             = { own.alpha, own.exponent, own.residual, own.saturated };
+	pores.retention            = &water.whole->ownCurves.emplace_back(own);
 }
 
 // Points that join others bring the water of their pressure. Where all are new, that of the nodes counts.
-template <int Dim> void Flows<Dim>::fillNewPoints(const vector<int>& materials, const gimpm::Division& division)
+template <int Dim> void Flows<Dim>::fillNewPoints(const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division)
 {
 	auto& known = water.whole->saturation;
 	if (division.sum(std::all_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); }) ? 0 : 1) == 0) return;
 	for (size_t p = 0; p < known.size(); ++p)
 		if (std::isnan(known[p]))
-			known[p] = gimpm::saturationOf(water.ownPores.empty() ? water.pores[materials[p]] : water.ownPores[p], water.pressure[p]).value;
+			known[p] = gimpm::saturationOf(water.ownPores.empty() ? water.pores[cloud.material[p]] : water.ownPores[p], water.pressure[p], cloud.volumeRatio(p)).value;
 }
 
 // Keeps suction and water in a study as they are.
@@ -65,9 +71,9 @@ template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gi
 			pushes.push_back(pores.coupling() * water.pressure[p]);
 			continue;
 		}
-		const Real known = water.whole->saturation[p], full = step.cloud.volumeRatio(p) - 1 + pores.porosity;
-		const Real S = std::isnan(known) ? gimpm::saturationOf(pores, water.pressure[p]).value : known;
-		pushes.push_back(pores.coupling() * gimpm::pressureOnGrains(pores, water.whole->bishop, water.pressure[p]).value);
+		const Real known = water.whole->saturation[p], J = step.cloud.volumeRatio(p), full = J - 1 + pores.porosity;
+		const Real S = std::isnan(known) ? gimpm::saturationOf(pores, water.pressure[p], J).value : known;
+		pushes.push_back(pores.coupling() * gimpm::pressureOnGrains(pores, water.whole->bishop, water.pressure[p], J).value);
 		weights.push_back(pores.weightPart * step.cloud.volume0[p] * (S * full - pores.porosity) * water.whole->factor * water.whole->weight);
 	}
 	return std::make_unique<gimpm::FrozenPressures<Dim>>(pushes, step, weights);
@@ -76,8 +82,8 @@ template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gi
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>&) const;                                                   \
 	template void                              Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                           \
-	template void                              Flows<Dim>::fillNewPoints(const vector<int>&, const gimpm::Division&);                                      \
-	template void                              Flows<Dim>::takeCurve(const MaterialPoint&, gimpm::Pores&);
+	template void                              Flows<Dim>::fillNewPoints(const gimpm::PointCloud<Dim>&, const gimpm::Division&);                                      \
+	template void                              Flows<Dim>::takeCurve(const MaterialPoint&, const MpmMaterial&, gimpm::Pores&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

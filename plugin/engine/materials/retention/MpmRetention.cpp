@@ -37,7 +37,7 @@ MpmRetention::Table MpmRetention::inPressures(Table table, Real unitWeight)
 Law MpmRetention::begun(Real unitWeight) const
 {
 	Law law;
-	law.residual = residual, law.saturated = saturated;
+	law.residual = residual, law.saturated = saturated, law.voidExponent = voidExponent;
 	law.conducted = inPressures(permeabilities, unitWeight);
 	return law;
 }

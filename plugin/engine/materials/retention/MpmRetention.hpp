@@ -9,7 +9,7 @@ class MpmRetention : public Exposed<MpmRetention, Serializable> {
 public:
 	using Table = gimpm::Retention::Table; // heads of suction [m] and values
 
-	Real  residual = 0, saturated = 1;
+	Real  residual = 0, saturated = 1, voidExponent = 0;
 	Table permeabilities; // empty: by the form of the curve
 
 	YADE_API_NAME(MpmRetention)
@@ -24,6 +24,9 @@ public:
 		  admitting("a number >= 0 and < 1", [](Real value) { return value >= 0 && value < 1; }));
 		v("saturated", &MpmRetention::saturated, 0, "Degree of saturation [-] without suction, above *residual*; 1, the default: no air is left.",
 		  part);
+		v("voidExponent", &MpmRetention::voidExponent, 0,
+		  "Power [-] >= 0 of the void ratio over the initial one by which suction counts more as pores open (Gallipoli and others 2003); 0, the default: a curve that stays.",
+		  nonNegative);
 		v("permeabilities", &MpmRetention::permeabilities, 0,
 		  "Relative permeability as a sequence of (suction as a head of water [m], value), linear in its logarithm between; empty, the default: by the form of the curve.",
 		  admitting("pairs of a head that increases from 0 and a value > 0 that falls from 1, or nothing", [](const Table& table) {

@@ -24,7 +24,7 @@ from ..base.solver import noPoints, solverOf
 from ..geometry.regions import inside
 from ..library import engine as _library
 from .data import arrays, assign, pointsOf, withMaterials
-from .suction import poreWater
+from .suction import pressureOnGrains
 
 __all__ = ['place', 'excavate', 'replace', 'release', 'resetDisplacements']
 nameInScenes('stages', __name__)
@@ -114,7 +114,7 @@ def replace(region, material, steps=1, solver=None):
 	"""Make the material points in a region points of another material: a slurry wall that is poured, ground that is grouted. Their total stress stays as it is, so that nothing moves at
 	once: grains of drained material take what the water of undrained soil has borne; what they are heavier or lighter by comes in the next *steps* load steps, in equal parts.
 
-	Of the new material they are as it is new: without plastic strain, strengths and moduli of their own. The density is that of their initial volume, as of all points.
+	Of the new material they are as it is new: without plastic strain, strengths and moduli of their own; with ``MpmFlow(total=True)`` with the water of its retention curve. The density is that of their initial volume, as of all points.
 
 	:param region: predicate of the current positions, as for :func:`fill`
 	:param material: label of a material in ``O.materials``
@@ -127,14 +127,19 @@ def replace(region, material, steps=1, solver=None):
 	"""
 	solver, steps = _static('replace', solver), _number('replace', steps)
 	points, materials, number, inRegion = _pointsIn('replace', region, solver)
-	if solver.flow and solver.flow.total: raise ValueError('replace: with MpmFlow(total=True) pores of another soil would have another suction at once; excavate the region and place the new material')
 	new = materialOf('replace', material)
 	if not isinstance(new, wrapper.MpmMaterial): raise TypeError(f'replace: material = {brief(material)} is a {type(new).__name__}, which is no material of material points')
 	ids = points['id'][inRegion].tolist()
 	isDrained = np.array([m.undrained and not new.undrained for m in materials])[number[inRegion]]
 	stress = np.where(isDrained[:, None, None], _totalStress(points, solver, materials, number)[inRegion], points['stress'][inRegion])
+	columns = {'stress': stress}
+	if solver.flow and solver.flow.total and 'excessPressure' in points:
+		there = {name: points[name][inRegion] for name in ('excessPressure', 'defGrad')}
+		push = pressureOnGrains(solver.flow, there, [new], np.zeros(len(ids), int))
+		stress = _totalStress(points, solver, materials, number)[inRegion] + push[:, None, None] * np.eye(3)
+		columns = {'stress': stress, 'excessPressure': points['excessPressure'][inRegion]}
 	before = np.array([m.density for m in materials])[number[inRegion]]
-	_renew(ids, new, stress)
+	_renew(ids, new, columns)
 	if steps == 1: return len(ids)
 	twins = {}
 	for density in np.unique(before[before != new.density]).tolist():
@@ -148,14 +153,12 @@ def replace(region, material, steps=1, solver=None):
 def _totalStress(points, solver, materials, number):
 	"""Stress of the grains less the excess pressure of the water, or less what suction is to them. The pressure of an MpmWater is not part of it: that goes on acting."""
 	if 'excessPressure' not in points: return points['stress']
-	pressure = points['excessPressure'].copy()
-	for i, material in enumerate(materials if solver.flow and solver.flow.total else ()):
-		pressure[number == i] = poreWater(solver.flow, material, pressure[number == i])[1]
+	pressure = pressureOnGrains(solver.flow, points, materials, number) if solver.flow and solver.flow.total else points['excessPressure']
 	return points['stress'] - pressure[:, None, None] * np.eye(3)
 
 
-def _renew(ids, material, stress):
-	"""Make them points of a material, with the stress they have; or after an error leave all as they are."""
+def _renew(ids, material, columns):
+	"""Make them points of a material, with the stress (and pressure) that they are given; or after an error leave all as they are."""
 	here = _here(ids)
 	names = 'internals', 'parameters', 'plasticStrain', 'elasticStrain', 'excessPressure'
 	known = [(body.material, [getattr(body.state, name) for name in names]) for body in here]
@@ -164,7 +167,7 @@ def _renew(ids, material, stress):
 		body.material = material
 		body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
 	try:
-		assign(ids=ids, stress=stress)
+		assign(ids=ids, **columns)
 	except ValueError as error:
 		for body, (own, values) in zip(here, known):
 			body.material = own

@@ -8,13 +8,34 @@ from ..base.messages import brief, isNumber
 from ..library import engine as _library
 from .water import conductivities
 
+_ofCurve = 'alpha', 'entry', 'n', 'exponent', 'residual', 'saturated'  # parameters of retention curves that points may have of their own
 _slices = 50  # of a cell, by which heads of infiltration are integrated
 
 
-def poreWater(flow, material, pressures):
-	"""(3, ...) degree of saturation, pressure on the grains [Pa] and relative permeability at pressures [Pa]."""
+def poreWater(flow, material, pressures, own={}, volumeRatio=1.):
+	"""(3, ...) degree of saturation, pressure on the grains [Pa] and relative permeability at pressures [Pa], of a point with these parameters of its own."""
 	values = np.ascontiguousarray(pressures, float)
-	return np.array([np.frombuffer(column).reshape(values.shape) for column in _library.poreWater(flow, material, values)])
+	return np.array([np.frombuffer(column).reshape(values.shape) for column in _library.poreWater(flow, material, values, own, volumeRatio)])
+
+
+def alike(points, materials, number):
+	"""Points that have the same retention curve: their material, their rows, and what of the curve is theirs, for poreWater."""
+	for i, material in enumerate(materials):
+		rows = np.flatnonzero(number == i)
+		changes = material.retention and material.retention.voidExponent > 0
+		names = [name for name in _ofCurve + ('porosity', ) * bool(changes) if name in points and not np.isnan(points[name][rows]).any()]
+		ratio = np.linalg.det(points['defGrad'][rows]) if changes else np.ones(len(rows))
+		values, group = np.unique(np.column_stack([points[name][rows] for name in names] + [ratio]), axis=0, return_inverse=True)
+		parts = np.split(rows[np.argsort(group, kind='stable')], np.cumsum(np.bincount(group, minlength=len(values)))[:-1])
+		for value, part in zip(values, parts):
+			yield material, part, (dict(zip(names, value.tolist())), value[-1].item())
+
+
+def pressureOnGrains(flow, points, materials, number):
+	"""Part of the pressure (N,) [Pa] of points that acts on their grains (Bishop)."""
+	pushes = np.empty(len(number))
+	for material, rows, curve in alike(points, materials, number): pushes[rows] = poreWater(flow, material, points['excessPressure'][rows], *curve)[1]
+	return pushes
 
 
 class Suction:
@@ -53,11 +74,10 @@ class Suction:
 		"""What the vertical pressure (N,) of saturated ground is more than the effective one, as pores lose water and the rest presses on the grains or draws them together."""
 		p = self.atNodes(points['excessPressure'] if 'excessPressure' in points else np.zeros(len(number)))
 		lost, push = np.empty(len(number)), np.empty(len(number))
-		for i, material in enumerate(materials):
-			rows = number == i
+		for material, rows, curve in alike(points, materials, number):
 			porosity = points['porosity'][rows] if 'porosity' in points else material.porosity
-			lost[rows] = porosity * (1 - self.means(poreWater(self.flow, material, p)[0], rows)) * self.flow.unitWeight
-			push[rows] = poreWater(self.flow, material, self.means(p, rows))[1]
+			lost[rows] = porosity * (1 - self.means(poreWater(self.flow, material, p, *curve)[0], rows)) * self.flow.unitWeight
+			push[rows] = poreWater(self.flow, material, self.means(p, rows), *curve)[1]
 		if np.isnan(lost).any(): raise ValueError(f'geostatic: the material {materials[number[np.flatnonzero(np.isnan(lost))[0]]].label!r} has no porosity [-], which MpmFlow needs')
 		return self.rows.above(lost) + push
 
@@ -69,10 +89,12 @@ class Suction:
 		step, edges = (self.nodes[1] - self.nodes[0]) / _slices, self.rows.level + self.rows.thickness / 2
 		order = [np.flatnonzero(self.rows.row == r)[0] for r in range(len(self.rows.level))]
 		ofRow = self.rows.point[self.rows.order][order]
+		curves = {point: (material, curve) for material, rows, curve in alike(points, materials, number) for point in rows}
 
 		def slope(z, h):
 			point = ofRow[np.clip(np.count_nonzero(edges > z) - 1, 0, len(ofRow) - 1)]
-			return infiltration / (vertical[point] * max(poreWater(self.flow, materials[number[point]], self.flow.unitWeight * h)[2].item(), 1e-300)) - 1
+			material, curve = curves[point]
+			return infiltration / (vertical[point] * max(poreWater(self.flow, material, self.flow.unitWeight * h, *curve)[2].item(), 1e-300)) - 1
 
 		known = []
 		for end in self.low.min(), self.high.max():
