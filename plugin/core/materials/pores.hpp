@@ -20,14 +20,14 @@ struct Pores {
 	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
 	Law    law          = Law::constant;
 	/// Change of the void ratio for ten times the conductivity, in the logarithmic law [-].
-	double           index         = std::numeric_limits<double>::quiet_NaN();
-	bool             areRigid      = false;   ///< water passes without pressing on the grains, and their strain displaces no water
-	const Retention* retention     = nullptr; ///< null: the pores are always full
-	long             curve         = -1;      ///< its number among the curves of the scene, the same in all processes; -1: there is none
-	bool             hasOwnCurve   = false;   ///< `retention` is that of the number with what `ownCurve` has
+	double           index       = std::numeric_limits<double>::quiet_NaN();
+	bool             areRigid    = false;   ///< water passes without pressing on the grains, and their strain displaces no water
+	const Retention* retention   = nullptr; ///< null: the pores are always full
+	long             curve       = -1;      ///< its number among the curves of the scene, the same in all processes; -1: there is none
+	bool             hasOwnCurve = false;   ///< `retention` is that of the number with what `ownCurve` has
 	OwnCurve         ownCurve {};
-	double           verticalRatio = 1;       ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
-	double           weightPart    = 1;       ///< part of the weight of the soil that acts [-], in a stage of construction
+	double           verticalRatio = 1; ///< vertical over horizontal conductivity [-]; `conductivity` is the horizontal one
+	double           weightPart    = 1; ///< part of the weight of the soil that acts [-], in a stage of construction
 
 	/// Horizontal conductivity for the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {

@@ -9,18 +9,18 @@ namespace yade {
 
 class MpmState : public ExposedIndexed<MpmState, State> {
 public:
-	Matrix3r                        stress         = Matrix3r::Zero();
-	Matrix3r                        defGrad        = Matrix3r::Identity();
-	Matrix3r                        elasticStrain  = Matrix3r::Zero();
-	Vector3r                        force          = Vector3r::Zero();
-	Real                            volume         = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real                            volume0        = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real                            porePressure   = std::numeric_limits<Real>::quiet_NaN(); // there is no water
+	Matrix3r                        stress           = Matrix3r::Zero();
+	Matrix3r                        defGrad          = Matrix3r::Identity();
+	Matrix3r                        elasticStrain    = Matrix3r::Zero();
+	Vector3r                        force            = Vector3r::Zero();
+	Real                            volume           = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            volume0          = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            porePressure     = std::numeric_limits<Real>::quiet_NaN(); // there is no water
 	Real                            pressureOnGrains = std::numeric_limits<Real>::quiet_NaN(); // that of the pores
-	Real                            excessPressure = 0;
-	Real                            saturation     = std::numeric_limits<Real>::quiet_NaN();                     // not known
-	Vector3r                        waterFlux      = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
-	Real                            plasticStrain  = 0;
+	Real                            excessPressure   = 0;
+	Real                            saturation       = std::numeric_limits<Real>::quiet_NaN();                     // not known
+	Vector3r                        waterFlux        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
+	Real                            plasticStrain    = 0;
 	vector<std::pair<string, Real>> internals; // variables of the law that are no attribute here
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
@@ -68,7 +68,7 @@ public:
 		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
 		  finite);
 		v("porePressure", &MpmState::porePressure, readonly,
-		  "Pressure of water in the pores [Pa] at the end of the last step (MpmWater, and *excessPressure*): a result, NaN without water. In full pores *stress* less it is total stress.");
+		  "Pressure of water in the pores [Pa] at the end of the last step (MpmWater, and *excessPressure*): a result; NaN without water. Total stress in full pores: *stress* less it.");
 		v("pressureOnGrains", &MpmState::pressureOnGrains, readonly,
 		  "Part of *porePressure* [Pa] that acts on the grains (Bishop), with *MpmFlow.total*: a result, less which *stress* is total stress; NaN without: all of it.");
 		v("excessPressure", &MpmState::excessPressure, 0,

@@ -86,13 +86,13 @@ void UnitedHalves::assignTo(const MaterialPoint& lower, const MaterialPoint& upp
 	MpmState&       l = *lower.state;
 	const MpmState& u = *upper.state;
 	l.pos = centre, l.vel = velocity, l.defGrad = defGrad, l.elasticStrain = elasticStrain, l.stress = stress;
-	l.refPos         = (l.refPos + u.refPos) / 2;
-	l.acceleration   = mean(l.acceleration, u.acceleration, share);
-	l.porePressure   = mean(l.porePressure, u.porePressure, share);
-	l.excessPressure = mean(l.excessPressure, u.excessPressure, share);
-	l.saturation     = mean(l.saturation, u.saturation, share);
+	l.refPos           = (l.refPos + u.refPos) / 2;
+	l.acceleration     = mean(l.acceleration, u.acceleration, share);
+	l.porePressure     = mean(l.porePressure, u.porePressure, share);
+	l.excessPressure   = mean(l.excessPressure, u.excessPressure, share);
+	l.saturation       = mean(l.saturation, u.saturation, share);
 	l.pressureOnGrains = mean(l.pressureOnGrains, u.pressureOnGrains, share);
-	l.waterFlux      = mean(l.waterFlux, u.waterFlux, share);
+	l.waterFlux        = mean(l.waterFlux, u.waterFlux, share);
 	for (const auto& [variable, value] : internals)
 		l.setInternal(variable->name, value);
 	MpmState::amounts([&](auto member) { l.*member += u.*member; });

@@ -24,6 +24,7 @@ outOfRange = {
         'MpmMaterial.relaxationTime': ['0.', '-1.'],
         'MpmMaterial.retention': None,
         'MpmRetention.residual': ['-0.1', '1.'],
+        'MpmRetention.voidExponent': ['-1.'],
         'MpmRetention.saturated': ['0.', '1.1'],
         'MpmRetention.permeabilities': ['[(0, 0.9)]', '[(1, 1)]', '[(0, 1), (0, 0.5)]'],
         'MpmVanGenuchten.alpha': ['0.', '-1.'],

@@ -32,7 +32,7 @@ CurvesOfNodes::Wetness CurvesOfNodes::at(const Eigen::VectorXd& pressures) const
 	for (std::size_t c = 0; c < curves_.size(); ++c) {
 #pragma omp parallel for schedule(static)
 		for (std::size_t i = 0; i < nodes_[c].size(); ++i) {
-			const int n = nodes_[c][i];
+			const int n       = nodes_[c][i];
 			all.byCurve[c][n] = { curves_[c]->saturation(pressures[n]), curves_[c]->relativePermeability(pressures[n]) };
 		}
 	}

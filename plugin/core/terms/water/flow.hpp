@@ -83,23 +83,15 @@ private:
 	UnsaturatedPoint<Dim> unsaturated(
 	        int p, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FlowPoint<Dim>& s, const CurvesOfNodes::Wetness& now) const
 	{
-		const PorePoint& point = points_[p];
-		if (const auto *first = curves_->of(p, before_), *last = curves_->of(p, now); first)
-			return { *water_.whole,  point, [&](int n) { return (*first)[n].saturation.value; }, [&](int n) { return (*last)[n]; }, now.pressures,
-				 correction_[p], patch, f, s };
-		const double J = s.poreRatio(point);
-		return { *water_.whole,
-			 point,
-			 [&](int n) { return saturationOf(*point.pores, before_.pressures[n], point.ratio).value; },
-			 [&](int n) {
-				 const double P = now.pressures[n];
-				 return NodeWetness { saturationOf(*point.pores, P, J), permeabilityOf(*point.pores, P, J) };
-			 },
-			 now.pressures,
-			 correction_[p],
-			 patch,
-			 f,
-			 s };
+		const PorePoint&  point  = points_[p];
+		const auto *const shared = curves_->of(p, before_), *const sharedNow = curves_->of(p, now);
+		const auto make = [&](auto&& before, auto&& at) -> UnsaturatedPoint<Dim> {
+			return { *water_.whole, point, before, at, now.pressures, correction_[p], patch, f, s };
+		};
+		if (shared) return make([&](int n) { return (*shared)[n].saturation.value; }, [&](int n) { return (*sharedNow)[n]; });
+		const auto before  = [&](int n) { return saturationOf(*point.pores, before_.pressures[n], point.ratio).value; };
+		const auto wetness = [&](int n) { return wetnessOf(*point.pores, now.pressures[n], s.poreRatio(point)); };
+		return make(before, wetness);
 	}
 	/// Conductivity of a cell in the direction of a unit vector.
 	double conductivityAlong(int cell, const Vec<Dim>& direction) const

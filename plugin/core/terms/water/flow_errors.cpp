@@ -56,18 +56,17 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 			const PointFunctions<Dim> f(basis_, i, patch);
 			Vec<Dim>                  moved   = Vec<Dim>::Zero();
 			double                    pressed = 0, pressure = 0;
+			if (basis_.order[i] >= own) continue;
 			for (int n = 0; n < f.count; ++n)
 				if (const int a = patch.node[n]; a >= 0) {
 					moved += f.value[n] * d.template segment<Dim>(Dim * a);
 					pressed += f.value[n] * p[a], pressure += f.value[n] * now[a];
 				}
-			if (basis_.order[i] >= own) continue;
 			const PorePoint& point = points_[basis_.order[i]];
 			ofMotion += point.volume * moved.squaredNorm(), ofPressure += point.volume * pressed * pressed, volume += point.volume;
 			if (!curves_) continue;
-			const double wetted = saturationOf(*point.pores, pressure, point.ratio).value
-			        - saturationOf(*point.pores, pressure - part * pressed, point.ratio).value;
-			ofSaturation += point.volume * wetted * wetted;
+			const auto wetnessAt = [&](double at) { return saturationOf(*point.pores, at, point.ratio).value; };
+			ofSaturation += point.volume * std::pow(wetnessAt(pressure) - wetnessAt(pressure - part * pressed), 2);
 		}
 	ofMotion = division_.sum(ofMotion), ofPressure = division_.sum(ofPressure), volume = division_.sum(volume);
 	std::vector<LocalError> errors { { part * std::sqrt(ofMotion / volume), water_.displacementTolerance, order },

@@ -51,6 +51,7 @@ inline Retention::Value permeabilityOf(const Pores& pores, double pressure, doub
 struct NodeWetness {
 	Retention::Value saturation { 1, 0 }, permeability { 1, 0 };
 };
+inline NodeWetness wetnessOf(const Pores& pores, double pressure, double J) { return { saturationOf(pores, pressure, J), permeabilityOf(pores, pressure, J) }; }
 
 /// Pressure that acts on the grains: chi p, with Bishop's factor chi of a suction, and one of a pressure.
 inline Retention::Value pressureOnGrains(const Pores& pores, Bishop bishop, double pressure, double J)
@@ -79,10 +80,11 @@ template <int Dim> struct UnsaturatedPoint {
 	Retention::Value push;                 ///< pressure on the grains [Pa]
 	double           opening[nodes] {};    ///< derivative of the relative permeability by its pressure [1/Pa]
 	double           permeability;         ///< relative
-	double           pushGrowth, openingGrowth = 0, contentGrowth = 0; ///< by ln J, as the curve changes: of the push, of the permeability, of the content
-	Vec<Dim>         drive;                ///< gradient of the pressure less the weight of the water [Pa/m]
+	/// By ln J, as the curve changes: of the push, of the permeability and of the content.
+	double   pushGrowth, openingGrowth = 0, contentGrowth = 0;
+	Vec<Dim> drive; ///< gradient of the pressure less the weight of the water [Pa/m]
 
-	/// `before(node)`, `now(node)`: saturation as the step begins and wetness at the iterate, by the curve of the point.
+	/// `before(node)`, `now(node)`: saturation as the step begins, wetness at the iterate, by the curve of the point.
 	/// `correction`: what it has more than the nodes say.
 	template <class Before, class Now>
 	UnsaturatedPoint(

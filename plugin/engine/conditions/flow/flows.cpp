@@ -168,8 +168,8 @@ template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, 
 	for (size_t p = 0; p < points.size(); ++p) {
 		const size_t material = around.cloud.material[p];
 		if (water.pores.size() <= material) water.pores.resize(material + 1);
-		gimpm::Pores& ofMaterial = water.pores[material];
-		const MpmMaterial& asPoint = differ ? own.of(*points[p].material, points[p].state->parameters) : *points[p].material;
+		gimpm::Pores&      ofMaterial = water.pores[material];
+		const MpmMaterial& asPoint    = differ ? own.of(*points[p].material, points[p].state->parameters) : *points[p].material;
 		if (differ) water.ownPores.push_back(poresOf(points[p], asPoint, from->unitWeight));
 		else if (std::isnan(ofMaterial.porosity))
 			ofMaterial = poresOf(points[p], asPoint, from->unitWeight);

@@ -17,10 +17,10 @@ PointMass pointMass(const shared_ptr<MpmFlow>& flow, const Vector3r& gravity)
 		const Real      porosity   = own ? *own : point.material->porosity;
 		Real            saturation = state.saturation;
 		if (std::isnan(saturation)) {
-			OwnMaterial        own;
-			const auto&        curve = own.of(*point.material, state.parameters).retention;
-			const auto         law   = curve ? std::optional(curve->law(weight)) : std::nullopt;
-			gimpm::Pores       pores;
+			OwnMaterial  own;
+			const auto&  curve = own.of(*point.material, state.parameters).retention;
+			const auto   law   = curve ? std::optional(curve->law(weight)) : std::nullopt;
+			gimpm::Pores pores;
 			pores.porosity = porosity, pores.retention = law ? &*law : nullptr;
 			saturation = gimpm::saturationOf(pores, state.excessPressure, state.volume / state.volume0).value;
 		}

@@ -57,7 +57,9 @@ template <int Dim> void Flows<Dim>::fillNewPoints(const gimpm::PointCloud<Dim>& 
 	if (division.sum(std::all_of(known.begin(), known.end(), [](Real value) { return std::isnan(value); }) ? 0 : 1) == 0) return;
 	for (size_t p = 0; p < known.size(); ++p)
 		if (std::isnan(known[p]))
-			known[p] = gimpm::saturationOf(water.ownPores.empty() ? water.pores[cloud.material[p]] : water.ownPores[p], water.pressure[p], cloud.volumeRatio(p)).value;
+			known[p] = gimpm::saturationOf(
+			                   water.ownPores.empty() ? water.pores[cloud.material[p]] : water.ownPores[p], water.pressure[p], cloud.volumeRatio(p))
+			                   .value;
 }
 
 // Keeps suction and water in a study as they are.
@@ -82,7 +84,7 @@ template <int Dim> std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gi
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template std::unique_ptr<gimpm::Term<Dim>> Flows<Dim>::frozen(const gimpm::StepContext<Dim>&) const;                                                   \
 	template void                              Flows<Dim>::beginWhole(const Surroundings<Dim>&);                                                           \
-	template void                              Flows<Dim>::fillNewPoints(const gimpm::PointCloud<Dim>&, const gimpm::Division&);                                      \
+	template void                              Flows<Dim>::fillNewPoints(const gimpm::PointCloud<Dim>&, const gimpm::Division&);                           \
 	template void                              Flows<Dim>::takeCurve(const MaterialPoint&, const MpmMaterial&, gimpm::Pores&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

@@ -25,7 +25,7 @@ public:
 		v("saturated", &MpmRetention::saturated, 0, "Degree of saturation [-] without suction, above *residual*; 1, the default: no air is left.",
 		  part);
 		v("voidExponent", &MpmRetention::voidExponent, 0,
-		  "Power [-] >= 0 of the void ratio over the initial one by which suction counts more as pores open (Gallipoli and others 2003); 0, the default: a curve that stays.",
+		  "Power [-] >= 0 of the void ratio over the initial one that multiplies suction (Gallipoli and others 2003); 0, the default: the curve stays.",
 		  nonNegative);
 		v("permeabilities", &MpmRetention::permeabilities, 0,
 		  "Relative permeability as a sequence of (suction as a head of water [m], value), linear in its logarithm between; empty, the default: by the form of the curve.",

@@ -26,9 +26,9 @@ namespace {
 const vector<ParameterOfClass>& parametersOfCurve(const MpmMaterial& material)
 {
 	static const vector<ParameterOfClass> none,
-	        vanGenuchten = withLimits({ ofCurve("alpha", &MpmVanGenuchten::alpha), ofCurve("n", &MpmVanGenuchten::n) }),
-	        gardner      = withLimits({ ofCurve("alpha", &MpmGardner::alpha) }),
-	        brooksCorey  = withLimits({ ofCurve("entry", &MpmBrooksCorey::entry), ofCurve("exponent", &MpmBrooksCorey::exponent) });
+	        vanGenuchten            = withLimits({ ofCurve("alpha", &MpmVanGenuchten::alpha), ofCurve("n", &MpmVanGenuchten::n) }),
+	        gardner                 = withLimits({ ofCurve("alpha", &MpmGardner::alpha) }),
+	        brooksCorey             = withLimits({ ofCurve("entry", &MpmBrooksCorey::entry), ofCurve("exponent", &MpmBrooksCorey::exponent) });
 	const MpmRetention* const curve = material.retention.get();
 	if (dynamic_cast<const MpmVanGenuchten*>(curve)) return vanGenuchten;
 	if (dynamic_cast<const MpmGardner*>(curve)) return gardner;

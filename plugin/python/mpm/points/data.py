@@ -128,7 +128,7 @@ def assign(ids=None, **columns):
 		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain`` and other internal variables of the
 		points' laws, ``force`` [N], ``velocity`` [m/s]; all finite. Also, by the name of the attribute, strengths and moduli that the points' materials have:
 		``young``, ``shearModulus``, ``yieldStress``, ``hardening``, ``residualYieldStress``, ``undrainedStrength``, ``cohesion``, ``frictionAngle``,
-		``dilationAngle``, ``tensileStrength``, ``criticalStateRatio``, and of all ``conductivity``, ``verticalConductivity`` and ``porosity``: an array (N,), or a function of the current position that returns a number.
+		``dilationAngle``, ``tensileStrength``, ``criticalStateRatio``, of all ``conductivity``, ``verticalConductivity`` and ``porosity``, and of retention curves ``alpha``, ``n``, ``entry``, ``exponent``, ``residual``, ``saturated``: an array (N,), or a function of the current position that returns a number.
 		``velocity`` [m/s] is that of a ``MpmDynamicEngine``, whose motion begins anew with it; static steps leave it alone.
 	:raises TypeError: a name that is not in this list, or values that are no numbers.
 	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is), or as that attribute of the
