@@ -170,6 +170,58 @@ print(json.dumps(found))
 	assert leaky == pytest.approx(1, rel=.005)
 
 
+def test_water_that_fills_a_joint_pushes_both_bodies(yade):
+	"""Two blocks before and behind a joint, open by a quarter of a cell or closed: the thrust of its water at rest is w H^2 / 2, and water that flows passes without loss; without `filled` an open joint is dry and tight."""
+	found, said = yade(
+	        joint + '''
+w, h, k = 1e4, .125, 1e-7
+def blocks(gap, gravity=0, filled=True, **flow):
+	O.reset()
+	soil('soil', 1e8)
+	grid = MpmGrid(cellSize=h)
+	box = lambda a, b: mpm.polygon([(a, 0), (b, 0), (b, 1), (a, 1)])
+	O.bodies.append(mpm.fill(box(0, .5), grid, 2, 'soil', body='rock'))
+	O.bodies.append(mpm.fill(box(.5 + gap, 1), grid, 4, 'soil', body='block'))
+	if gravity: mpm.assign(excessPressure=[w * (1 - y) for y in mpm.arrays()['pos'][:, 1]])
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix="x"), MpmBoundary(max=(inf, 0, inf), fix="y")]
+	faces = [[(.5, 1), (0, 1)], [(1, 1), (.5 + gap, 1)]] if gravity else [[(0, 1), (0, 0)], [(1, 0), (1, 1)]]
+	drains = [MpmDrain(surface=face, pressure=p, conductance=1000) for face, p in zip(faces, (0, 0) if gravity else (2e4, 0))]
+	contact = MpmBodyContact(between=('rock', 'block'), friction=.3, filled=filled)
+	solver = MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], gravity=(0, -gravity, 0), gravityCurve=[(0, 1)], verbosity=0, loadCurve=[(0, 1), (1, 1)],
+	                           flow=MpmFlow(total=True, unitWeight=w, drains=drains))
+	O.engines, O.dt = [solver], 1e8
+	return solver, contact, drains
+found = []
+for gap in 0, h / 4:
+	solver, contact, drains = blocks(gap, gravity=10)
+	O.run(2, wait=True)
+	found.append([solver.reactions[1][0], solver.reactions[0][0]])
+for gap in 0, h / 4:
+	solver, contact, drains = blocks(gap)
+	O.run(3, wait=True)
+	points = mpm.arrays()
+	wanted = 2e4 * (1 - (points["pos0"][:, 0] - gap * (points["pos0"][:, 0] > .5)) / (1 - gap))
+	found.append([solver.reactions[1][0], drains[1].discharge * (1 - gap) / (k * 2), float(abs(points['excessPressure'] - wanted).max())])
+solver, contact, drains = blocks(h / 4, filled=False)
+O.run(3, wait=True)
+found.append([solver.reactions[1][0], drains[1].discharge])
+said = []
+O.engines = [MpmDynamicEngine(**{name: getattr(solver, name) for name in ('grid', 'boundaries', 'contacts', 'flow', 'loadCurve')})]
+contact.filled = True
+try: O.step()
+except Exception as error: said.append(str(error))
+print(json.dumps([found, said]))
+'''
+	).result
+	for ours, other in found[:2]:
+		assert -ours == pytest.approx(5e3, rel=.002) and other == pytest.approx(5e3, rel=.002)
+	for gap, (thrust, passes, uneven) in zip((0, .03125), found[2:4]):
+		assert passes == pytest.approx(1, rel=.01) and uneven < 200
+		assert -thrust == pytest.approx(2e4 * (1 - .5 / (1 - gap)), rel=.002)
+	assert abs(found[4][0]) < 1 and abs(found[4][1]) < 1e-12
+	assert 'contacts[0].filled' in said[0] and 'no inertia' in said[0]
+
+
 @pytest.mark.parametrize('kind', ['bodies', 'rigid'])
 def test_friction_is_of_effective_stress(yade, kind):
 	"""A slab with pore water under pressure slides by the pressure less that of the water, on a body of points or on a rigid one."""

@@ -249,6 +249,7 @@ outOfRange = {
         'MpmBodyContact.friction': ['-0.1', '30.', '1.5708'],
         'MpmBodyContact.adhesion': ['-1.'],
         'MpmBodyContact.permittivity': ['-1.'],
+        'MpmBodyContact.filled': None,
         'MpmBodyContact.stiffness': ['0.', '-1.'],
         'MpmBody.name': None,
         'MpmBody.vertices': None,

@@ -210,6 +210,8 @@ template <int Dim>
 void BodyContact<Dim>::add(
         const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* absoluteContributions, Couplings* K, PairJacobian kind) const
 {
+	for (const Wedge& wedge : wedges_)
+		addForces(nodesOf(*wedge.contactPoint, *wedge.contactPoint->first), wedge.force, factor, force, absoluteContributions);
 	if (contactPoints_.empty()) return;
 	if (!K) {
 		for (const Touching& touching : contactAt(d).touching)

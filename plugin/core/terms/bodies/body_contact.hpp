@@ -55,6 +55,8 @@ template <int Dim> struct BodyMeeting {
 	double stiffness           = 10;
 	double leakage             = 0; ///< water that passes where they touch: volume by area and time, over the difference of the pressures [m3/(N s)]
 
+	bool isFilled = false; ///< water is between them, also where they do not touch, and presses on both
+
 	/// Stress on each piece of the slave's surface at the end of the last accepted step [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
 	std::vector<double>   pressure {};
@@ -137,6 +139,11 @@ private:
 		Positions             now;
 		std::vector<Touching> touching {};
 	};
+	/// Water between a contact point and the piece that it begins with, and its force on both.
+	struct Wedge {
+		const ContactPoint* contactPoint;
+		PairAction<Dim>     force;
+	};
 	/// A node that moves some of the contact points of a pair, by these weights.
 	struct PairNode {
 		int                         node;
@@ -150,6 +157,8 @@ private:
 	void                findFirst(ContactPoint&);
 	void                keepApart(ContactPoint* begin, ContactPoint* end);
 	void                takeWater(const Eigen::VectorXd& pressures, bool flows);
+	bool                isInFilledJoint(const ContactPoint&) const;
+	void                addWedge(const ContactPoint&, double pressure);
 	void                begin(ContactPoint&);
 	int                 wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
 	Positions           positionsAt(const Eigen::VectorXd& d) const;
@@ -185,6 +194,7 @@ private:
 	Positions                 start_;
 	std::vector<ContactPoint> contactPoints_;
 	std::vector<Passage<Dim>> passages_;
+	std::vector<Wedge>        wedges_;
 	std::string               obstacle_;
 	mutable ContactState      state_; // the last one
 };

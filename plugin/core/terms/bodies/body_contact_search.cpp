@@ -65,16 +65,37 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 		begin(contactPoint);
 }
 
-/// Water presses on both bodies where they touch, and, unless its pressures stay as they are, passes from one to the
-/// other there.
+/// Water presses on both bodies where they touch or where it fills what is between them, and, unless its pressures stay
+/// as they are, passes from one to the other there. The force of contact is that of the grains where water fills it.
 template <int Dim> void BodyContact<Dim>::takeWater(const Eigen::VectorXd& pressures, bool flows)
 {
 	for (ContactPoint& point : contactPoints_) {
-		if (!point.first || !(point.normalForce > 0 || point.closed <= tolerance_)) continue;
-		point.law.water      = point.area * (point.at.value(pressures) + point.first->foot.value(pressures)) / 2;
-		const double leakage = meetingOf(point).leakage;
+		const auto& meeting = meetingOf(point);
+		if (!point.first || !(isInFilledJoint(point) || point.normalForce > 0 || point.closed <= tolerance_)) continue;
+		const double pressure = (point.at.value(pressures) + point.first->foot.value(pressures)) / 2, leakage = meeting.leakage;
+		if (isInFilledJoint(point)) addWedge(point, pressure);
+		else
+			point.law.water = point.area * pressure;
 		if (flows && leakage > 0) passages_.push_back({ { point.at, point.first->foot }, system_.duration * point.area * leakage });
 	}
+}
+
+/// True where water is between the contact point and the piece before it, which look at each other.
+template <int Dim> bool BodyContact<Dim>::isInFilledJoint(const ContactPoint& point) const
+{
+	constexpr double  oblique = -0.5; // cosine of the angle between their normals
+	const Facing<Dim> facing(pair(point.start, meetingOf(point).master, point.first->piece, start_));
+	return meetingOf(point).isFilled && point.normal.dot(facing.normal) < oblique;
+}
+
+/// Water presses along the normal of the contact point.
+template <int Dim> void BodyContact<Dim>::addWedge(const ContactPoint& point, double pressure)
+{
+	Wedge wedge { &point, {} };
+	wedge.force.force[0] = -pressure * point.area * point.normal;
+	for (int v = 0; v < Dim; ++v)
+		wedge.force.force[v + 1] = -point.first->weight[v] * wedge.force.force[0];
+	wedges_.push_back(wedge);
 }
 
 template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const StepContext<Dim>& step)

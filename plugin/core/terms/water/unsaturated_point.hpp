@@ -84,7 +84,7 @@ template <int Dim> struct UnsaturatedPoint {
 	double   pushGrowth, openingGrowth = 0, contentGrowth = 0;
 	Vec<Dim> drive; ///< gradient of the pressure less the weight of the water [Pa/m]
 
-	/// `before(node)`, `now(node)`: saturation as the step begins, wetness at the iterate, by the curve of the point.
+	/// `before(node)`, `now(node)`: saturation as the step begins, wetness at the iterate, by the point's curve.
 	/// `correction`: what it has more than the nodes say.
 	template <class Before, class Now>
 	UnsaturatedPoint(

@@ -5,6 +5,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "engine/conditions/bodies/layers.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include "yade_api/registration.hpp"
 #include <set>
 
@@ -51,6 +52,10 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 			throw std::invalid_argument(
 			        name + " and " + other.name() + " are both between '" + between[0] + "' and '" + between[1] + "': one is admitted.");
 	}
+	if (filled && (analysis.isDynamic() || !MpmFlow::of(analysis)))
+		throw std::invalid_argument(
+		        name
+		        + ".filled = True: the water is that of an MpmFlow in flow of an MpmImplicitEngine, whose steps have no inertia. Leave it out, or see to these.");
 }
 
 void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const

@@ -13,6 +13,7 @@ public:
 	Real             adhesion     = std::numeric_limits<Real>::infinity();
 	Real             stiffness    = 10;
 	Real             permittivity = std::numeric_limits<Real>::infinity();
+	bool             filled       = false;
 	Vector3r         force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	Vector3r         moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	int              touching = 0, slipping = 0;
@@ -44,6 +45,8 @@ public:
 		v("permittivity", &MpmBodyContact::permittivity, 0,
 		  "Permittivity for water of MpmFlow where they touch: conductivity over thickness [1/s] >= 0; inf, the default: it passes as in soil; 0: it does not pass.",
 		  admitting("a number >= 0 [1/s], or inf", [](Real value) { return value >= 0; }));
+		v("filled", &MpmBodyContact::filled, 0,
+		  "True: water of MpmFlow fills the joint, up to half a cell wide: it passes, and presses on both faces; contact is of effective stress. Static steps.");
 		v("force", &MpmBodyContact::force, readonly,
 		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");

@@ -144,6 +144,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	meeting.frictionCoefficient = std::tan(contact.friction);
 	meeting.adhesion            = contact.adhesion;
 	meeting.stiffness           = contact.stiffness;
+	meeting.isFilled            = contact.filled;
 	meeting.touching = contact.touching, meeting.slipping = contact.slipping;
 	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
 	meeting.pressure = contact.pressures;
