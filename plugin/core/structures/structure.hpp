@@ -72,7 +72,8 @@ struct BeamSide {
 	std::vector<double> normalForce; ///< force of the beam on it [N]
 	std::vector<double> gap;         ///< gap that the beam has left [m]
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
-	/// Pressure of water that flows in it [Pa], which presses the two apart besides; empty: there is none.
+	/// Pressure of water that flows in it at the end of the last step [Pa], which presses the two apart besides; empty:
+	/// there is none.
 	std::vector<double> water {};
 };
 
@@ -82,7 +83,6 @@ struct TipBond {
 	bool   isActive = false; ///< the cut reaches so far
 	double pressure = 0;     ///< normal stress, pressure positive [Pa]
 	double shear    = 0;     ///< on what is to the left of the line, from what is to its right, along it [Pa]
-	double water    = 0;     ///< pressure of water that flows in the soil [Pa]
 };
 
 /// A line of vertices in the plane, each with a position and a turn of its own, that the soil acts on by springs.
@@ -101,6 +101,7 @@ struct Beam : PartingLine {
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
+	bool                waterPulls = true;              ///< water that flows, where its pressure is below zero; else air gets between soil and beam
 	/// Water pressure to the left of each vertex less that to its right, at the end of the step [Pa]; null: none.
 	const std::vector<double>* waterPressure = nullptr;
 	double                     shrinkage     = 1; ///< in this step: lengths without stress after it over those before

@@ -38,7 +38,7 @@ template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, c
 template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const StepContext<Dim>& step) : structure_(structure)
 {
 	soil_ = soilAround(step);
-	if (step.water) takeWater(*step.water);
+	if (step.water) wet(step);
 	obstacle_ = missingSoil(step, soil_);
 	if (obstacle_.empty()) obstacle_ = pulledOut(soil_);
 	if (obstacle_.empty()) system_.emplace(structure, soil_);
@@ -157,23 +157,39 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 	}
 }
 
-/// Pressures of the water beside a beam as a step begins: what they change in it springs bear until the next one.
-template <int Dim> void StructureForce<Dim>::takeWater(const Eigen::VectorXd& pressures)
+/// Says where the soil beside a beam, and on both sides ahead of its tips, is wet.
+template <int Dim> void StructureForce<Dim>::wet(const StepContext<Dim>& step)
+{
+	waterBefore_ = water_ = *step.water;
+	for (std::size_t position = 0; position < soil_.size(); ++position)
+		soil_[position].isWet = structure_.beam && soil_[position].exists && attached_[position]
+		        && (position < structure_.beam->positions.size() || int(position) >= structure_.vertices());
+}
+
+/// Pressure of the water at a position of the soil, at the last iterate.
+template <int Dim> double StructureForce<Dim>::pressureAt(int position) const
+{
+	const auto& at  = *attached_[position];
+	double      sum = 0;
+	for (int n = 0; n < at.nodes; ++n)
+		if (presses(at.node[n])) sum += at.weight[n] * water_[at.node[n]];
+	return sum;
+}
+
+/// Keeps the pressures beside a beam for users.
+template <int Dim> void StructureForce<Dim>::keepWater()
 {
 	if (!structure_.beam) return;
 	Beam&             beam  = *structure_.beam;
-	const std::size_t count = beam.positions.size(), all = structure_.vertices(), bonds = all + count;
-	const auto at = [&](std::size_t position) { return position < attached_.size() && attached_[position] ? attached_[position]->value(pressures) : 0.; };
+	const std::size_t count = beam.positions.size(), all = structure_.vertices();
 	for (const int side : { 0, 1 }) {
 		beam.sides[side].water.assign(count, 0);
 		for (std::size_t v = 0; v < count; ++v) {
-			const bool isParted       = all + v < soil_.size() && soil_[all + v].exists;
-			const bool hasWater       = soil_[v].exists && (isParted || soil_[v].sides == 1 << side);
-			beam.sides[side].water[v] = hasWater ? at(isParted && side == 1 ? all + v : v) : 0;
+			const bool isParted = all + v < soil_.size() && soil_[all + v].exists;
+			if (soil_[v].exists && (isParted || soil_[v].sides == 1 << side))
+				beam.sides[side].water[v] = pressureAt(int(isParted && side == 1 ? all + v : v));
 		}
 	}
-	for (std::size_t i = 0; i < 2 * bondsOfTip; ++i)
-		beam.bonds[i / bondsOfTip][i % bondsOfTip].water = (at(bonds + 2 * i) + at(bonds + 2 * i + 1)) / 2;
 }
 
 /// The cut is longer than the beam: there its two sides are kept together at integration points, so that it matters
@@ -255,7 +271,14 @@ template <int Dim> Eigen::VectorXd StructureForce<Dim>::soilAt(const Eigen::Vect
 	Eigen::VectorXd soil(system_->soilUnknowns());
 	for (std::size_t v = 0; v < attached_.size(); ++v)
 		if (const int at = system_->soilUnknown(int(v)); at >= 0) soil.template segment<Dim>(at) = attached_[v]->displacement(d);
+	addPressures(soil);
 	return soil;
+}
+
+template <int Dim> void StructureForce<Dim>::addPressures(Eigen::VectorXd& soil) const
+{
+	for (int position = 0; position < int(attached_.size()); ++position)
+		if (const int at = system_->waterUnknown(position); at >= 0) soil[at] = pressureAt(position);
 }
 
 /// An equilibrium that has been found is the first guess of the next one. Displacements without one, which a line
@@ -297,19 +320,63 @@ template <int Dim> void StructureForce<Dim>::markCouplings(Couplings& K) const
 	pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 	for (const auto& [a, b] : pairs)
 		K.mark({ 0, a }, { 0, b });
+	if (!K.map().isAlone()) markWater(K);
+}
+
+/// Calls f(position, node, weight) for nodes the water of which presses on the structure.
+template <int Dim> template <class F> void StructureForce<Dim>::forWater(F&& f) const
+{
+	for (int position = 0; position < int(attached_.size()); ++position)
+		for (int n = 0; system_->waterUnknown(position) >= 0 && n < attached_[position]->nodes; ++n)
+			f(position, attached_[position]->node[n], attached_[position]->weight[n]);
+}
+
+template <int Dim> void StructureForce<Dim>::markWater(Couplings& K) const
+{
+	forWater([&](int, int wet, double) {
+		for (int v = 0; v < int(attached_.size()); ++v)
+			for (int n = 0; system_->soilUnknown(v) >= 0 && n < attached_[v]->nodes; ++n)
+				K.mark({ 0, attached_[v]->node[n] }, { field, wet });
+		forWater([&](int, int other, double) { K.mark({ field, wet }, { field, other }); });
+	});
+}
+
+/// Derivatives by the pressures, and those of the volumes that open.
+template <int Dim> void StructureForce<Dim>::addWater(const Eigen::MatrixXd& K, Couplings& couplings) const
+{
+	forWater([&](int position, int wet, double weight) {
+		if (!presses(wet)) return;
+		const int w = system_->waterUnknown(position);
+		for (int v = 0; v < int(attached_.size()); ++v) {
+			const int u = system_->soilUnknown(v);
+			for (int n = 0; u >= 0 && n < attached_[v]->nodes; ++n) {
+				const Vec<Dim> block = weight * attached_[v]->weight[n] * K.template block<Dim, 1>(u, w);
+				couplings.add({ 0, attached_[v]->node[n] }, { field, wet }, block);
+				if (!couplings.isSymmetric())
+					couplings.add({ field, wet }, { 0, attached_[v]->node[n] }, Eigen::Matrix<double, 1, Dim>(-block.transpose()));
+			}
+		}
+		forWater([&](int other, int node, double part) {
+			if (presses(node)) couplings.add({ field, wet }, { field, node }, -weight * part * K(w, system_->waterUnknown(other)));
+		});
+	});
 }
 
 template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
 	if (!system_) return std::nullopt;
+	const bool flows = !state.map().isAlone();
+	if (flows) water_ = state.value(field);
 	const EnergySum at = system_->energyAt(equilibrium(state.displacements()));
 	distribute(at, sum);
+	if (flows) distributeVolumes(at, sum);
 	if (!sum.couplings) return std::nullopt;
 	const Eigen::MatrixXd K = system_->condensed(at);
 	forJoined([&](int v, int w, int a, int b, double weight) {
 		const Mat<Dim> block = weight * K.template block<Dim, Dim>(system_->soilUnknown(v), system_->soilUnknown(w));
 		sum.couplings->add({ 0, a }, { 0, b }, block);
 	});
+	if (flows) addWater(K, *sum.couplings);
 	return std::nullopt;
 }
 
@@ -329,12 +396,27 @@ template <int Dim> void StructureForce<Dim>::distribute(const EnergySum& at, con
 	}
 }
 
+/// Gives the volumes that open between soil and beam to the balance of the water around.
+template <int Dim> void StructureForce<Dim>::distributeVolumes(const EnergySum& at, const FieldSum<Dim>& sum) const
+{
+	forWater([&](int position, int node, double weight) {
+		if (!presses(node)) return;
+		const int w = system_->waterUnknown(position);
+		sum.force[field][node] -= weight * at.gradient[w];
+		sum.absoluteContributions[field][node] += std::abs(weight) * at.absoluteContributions[w];
+	});
+}
+
 /// Takes the loads of the beginning: those of the end would act half a step too early.
 template <int Dim> EnergySum StructureForce<Dim>::asItBegins() const
 {
 	Structure<Dim>             structure = structure_.asItBegins();
 	const StructureSystem<Dim> system(structure, soil_);
-	return system.energyAt(system.solve(Eigen::VectorXd::Zero(system.soilUnknowns()), {}).x);
+	Eigen::VectorXd            soil = Eigen::VectorXd::Zero(system.soilUnknowns());
+	const Eigen::VectorXd      last = std::exchange(water_, waterBefore_);
+	addPressures(soil);
+	water_ = last;
+	return system.energyAt(system.solve(soil, {}).x);
 }
 
 template <int Dim> void StructureForce<Dim>::addCoupledBefore(const State&, const FieldSum<Dim>& sum) const
@@ -344,11 +426,13 @@ template <int Dim> void StructureForce<Dim>::addCoupledBefore(const State&, cons
 
 template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
 {
-	const Eigen::VectorXd soil = soilAt(state.displacements()), x = equilibrium(state.displacements());
-	const int             count = system_->soilUnknowns();
-	structure_.work             = -soil.dot((asItBegins().gradient + system_->energyAt(x).gradient).head(count)) / 2;
+	if (!state.map().isAlone()) water_ = state.value(field);
+	const Eigen::VectorXd x = equilibrium(state.displacements()), forces = asItBegins().gradient + system_->energyAt(x).gradient;
+	structure_.work = 0;
+	for (int v = 0; v < int(attached_.size()); ++v)
+		if (const int at = system_->soilUnknown(v); at >= 0) structure_.work -= x.template segment<Dim>(at).dot(forces.template segment<Dim>(at)) / 2;
 	system_->commit(x);
-	if (!state.map().isAlone()) takeWater(state.value(1));
+	if (water_.size() > 0) keepWater();
 }
 
 /// Norm of the loads on the structure, and of the reactions at its ends.

@@ -24,27 +24,41 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) override;
 
 private:
+	static constexpr int field = 1; ///< of the pressures
+
+	/// True where air does not take the place of water that pulls.
+	bool presses(int node) const { return structure_.beam->waterPulls || water_[node] > 0; }
+
 	std::vector<Vec<Dim>>     positions() const;
 	std::vector<SoilAtVertex> soilAround(const StepContext<Dim>&);
 	void                      lookBesideBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&) const;
 	void                      partAlongBeam(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
 	void                      bondAheadOfTips(const StepContext<Dim>&, std::vector<SoilAtVertex>&);
-	void                      takeWater(const Eigen::VectorXd& pressures);
+	void                      wet(const StepContext<Dim>&);
+	void                      keepWater();
+	double                    pressureAt(int position) const;
 	std::string               missingSoil(const StepContext<Dim>&, const std::vector<SoilAtVertex>&) const;
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
+	void                      addPressures(Eigen::VectorXd& soil) const;
+	void                      distributeVolumes(const EnergySum&, const FieldSum<Dim>&) const;
+	void                      markWater(Couplings&) const;
+	void                      addWater(const Eigen::MatrixXd& K, Couplings&) const;
 	Eigen::VectorXd           equilibrium(const Eigen::VectorXd& d) const;
 	EnergySum                 asItBegins() const;
 	void                      distribute(const EnergySum&, const FieldSum<Dim>&) const;
 	template <class F> void   forVertices(F&& f) const;
 	template <class F> void   forJoined(F&& f) const;
+	template <class F> void   forWater(F&& f) const;
 
 	Structure<Dim>&                             structure_;
 	std::vector<std::optional<Attachment<Dim>>> attached_; ///< positions by vertex, and behind them those to the right of vertices of the beam
 	std::vector<SoilAtVertex>                   soil_;
 	std::optional<StructureSystem<Dim>>         system_;
 	std::string                                 obstacle_;
-	mutable Eigen::VectorXd                     last_; ///< solution at the last iterate, from which the next one is looked for
+	Eigen::VectorXd                             waterBefore_; ///< pressures of water that flows at nodes, as the step begins; empty: there is none
+	mutable Eigen::VectorXd                     water_;       ///< pressures at the last iterate
+	mutable Eigen::VectorXd                     last_;        ///< solution at the last iterate, from which the next one is looked for
 };
 
 } // namespace gimpm

@@ -43,32 +43,38 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 }
 
 /// Adds the pressures of water that flows: on each side of the beam they press soil and beam apart, and ahead of its
-/// tips the two sides of the soil.
+/// tips the two sides of the soil. The energy is less by the pressure times the volume that opens, so that water fills it.
 template <int Dim> void StructureSystem<Dim>::addWater(const Eigen::VectorXd& x, EnergySum& sum) const
 {
 	const Beam& beam  = *structure_.beam;
-	const auto  press = [&](int first, const std::array<int, 3>& own, const Vec<2>& force) {
+	const auto  press = [&](int first, const std::array<int, 3>& own, const LinearForm& pressure, const Vec<2>& area) {
                 for (int a = 0; a < 2; ++a) {
                         LinearForm apart;
                         apart.add(first + a, 1);
                         apart.add(own[a], -1);
-                        addForce(apart, force[a], x, sum);
+                        Energy<2> energy;
+                        energy.value    = -area[a] * pressure.at(x) * apart.at(x);
+                        energy.gradient = -area[a] * Eigen::Vector2d(pressure.at(x), apart.at(x));
+                        energy.hessian << 0, -area[a], -area[a], 0;
+                        sum.add<2>({ apart, pressure }, energy);
                 }
 	};
-	for (int v = 0; v < int(beam.positions.size()); ++v)
-		for (const int side : { 0, 1 }) {
-			const Station& station = stations_[v];
-			if (beam.sides[side].water.empty() || station.soil < 0 || isSecondOfRing(v)) continue;
-			const Vec<2> t = beam.tangentAt(v), n = (side == 1 ? -1 : 1) * Vec<2>(-t[1], t[0]);
-			const int    first = side == 1 && station.toTheRight >= 0 ? station.toTheRight : station.soil;
-			press(first, station.own, beam.sides[side].water[v] * beam.sizeAt(v) * n);
-		}
+	for (const WetSide& wet : wetSides_) {
+		const Vec<2> t = beam.tangentAt(wet.vertex), n = (wet.side == 1 ? -1 : 1) * Vec<2>(-t[1], t[0]);
+		LinearForm   pressure;
+		pressure.add(waterUnknown(wet.position), 1);
+		press(soilUnknown(wet.position), stations_[wet.vertex].own, pressure, beam.sizeAt(wet.vertex) * n);
+	}
+	const int count = int(beam.positions.size()), bonds = int(stations_.size()) + count;
 	for (std::size_t i = 0; i + 1 < bondSoil_.size(); i += 2) {
 		const int left = bondSoil_[i], right = bondSoil_[i + 1];
 		if (left < 0 || right < 0) continue;
 		const int    end = int(i / 2) / bondsOfTip;
-		const Vec<2> t   = beam.tangentAt(end == 0 ? 0 : int(beam.positions.size()) - 1);
-		press(left, { right, right + 1, -1 }, bondWater_[i / 2] * Vec<2>(-t[1], t[0]));
+		const Vec<2> t   = beam.tangentAt(end == 0 ? 0 : count - 1);
+		LinearForm   pressure;
+		for (const int side : { 0, 1 })
+			pressure.add(waterUnknown(bonds + int(i) + side), 0.5);
+		press(left, { right, right + 1, -1 }, pressure, bondArea_[i / 2] * Vec<2>(-t[1], t[0]));
 	}
 }
 

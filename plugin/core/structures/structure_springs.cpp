@@ -83,7 +83,7 @@ template <int Dim> void StructureSystem<Dim>::addBonds(const std::vector<SoilAtV
 		const SoilAtVertex& here = soil[stations_.size() + ofBeam() + 2 * i];
 		Beam&               beam = *structure_.beam;
 		TipBond&            bond = beam.bonds[end][i % bondsOfTip];
-		bondWater_.push_back(bond.water * here.area);
+		bondArea_.push_back(here.area);
 		if (left < 0) {
 			bond = {};
 			continue;

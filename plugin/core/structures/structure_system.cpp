@@ -81,6 +81,18 @@ template <int Dim> void StructureSystem<Dim>::numberSoil(const std::vector<SoilA
 	}
 }
 
+template <int Dim> void StructureSystem<Dim>::numberWater(const std::vector<SoilAtVertex>& soil)
+{
+	for (std::size_t position = 0; position < soil.size(); ++position)
+		water_.push_back(soil[position].isWet && soilUnknown(int(position)) >= 0 ? unknowns_++ : -1);
+	for (int v = 0; v < ofBeam(); ++v)
+		for (const int side : { 0, 1 }) {
+			const bool isParted = stations_[v].toTheRight >= 0;
+			const int  position = isParted && side == 1 ? int(stations_.size()) + v : v;
+			if ((isParted || soil[v].sides == 1 << side) && water_[position] >= 0) wetSides_.push_back({ v, side, position });
+		}
+}
+
 /// The beam's vertices come first, of which the heads of bars may be copies.
 template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVertex>& soil)
 {
@@ -93,6 +105,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 		if (bar.head == Head::pulled) stations_[first].moves = false;
 	});
 	numberSoil(soil);
+	numberWater(soil);
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
 	forBars([&](const Reinforcement<Dim>& bar, int first) {

@@ -8,17 +8,19 @@ namespace gimpm {
 /// The soil at a vertex as a step begins.
 struct SoilAtVertex {
 	bool   exists       = false;
-	int    sides        = 0; ///< sides of a beam: bit 0 to its left, bit 1 to its right
-	double normalStress = 0; ///< on the line, pressure positive [Pa]
-	double shearStress  = 0; ///< on what is to the left of the line, from what is to its right, along it [Pa]
-	double young        = 0; ///< [Pa]
-	double cellSize     = 1; ///< [m]
-	double area         = 0; ///< area of a bond [m], around an axis [m2]
+	int    sides        = 0;     ///< sides of a beam: bit 0 to its left, bit 1 to its right
+	double normalStress = 0;     ///< on the line, pressure positive [Pa]
+	double shearStress  = 0;     ///< on what is to the left of the line, from what is to its right, along it [Pa]
+	double young        = 0;     ///< [Pa]
+	double cellSize     = 1;     ///< [m]
+	double area         = 0;     ///< area of a bond [m], around an axis [m2]
+	bool   isWet        = false; ///< water that flows in it presses on the beam, and fills what opens between the two
 };
 
-/// Unknowns are the displacements of the soil at the vertices that have some, Dim each, and then those of the structure
-/// itself: of a beam's vertices, and slips. All are those of the step. They minimise an energy of the step, here with
-/// respect to the structure's own unknowns, so that these never reach the unknowns of the grid.
+/// Unknowns are the displacements of the soil at the vertices that have some, Dim each, the pressures of its water there,
+/// and then those of the structure itself: of a beam's vertices, and slips. Displacements are those of the step. They
+/// minimise an energy of the step, here with respect to the structure's own unknowns, so that these never reach the
+/// unknowns of the grid. Its derivative by a pressure is the volume that closes between soil and beam.
 template <int Dim> class StructureSystem {
 public:
 	/// The structure must outlive it; the soil by vertex, those of the beam first. Behind them all, by vertex of
@@ -35,6 +37,8 @@ public:
 		if (right < 0) return stations_[position].soil;
 		return bond < 0 ? stations_[right].toTheRight : bondSoil_[bond];
 	}
+	/// Unknown pressure of the water there, numbered as the soil is given; -1: there is none.
+	int waterUnknown(int position) const { return water_[position]; }
 	/// Pairs of vertices that a piece without unknowns of its own joins, each once, with the vertex itself.
 	std::vector<std::pair<int, int>> joinedVertices() const;
 
@@ -68,6 +72,10 @@ private:
 		int                turnBehind = -1;    ///< hinge in a shell: unknown of the piece behind it
 		bool               isFree     = false; ///< vertex of a beam
 	};
+	/// A side of a vertex of the beam where soil is wet, and the position of that soil.
+	struct WetSide {
+		int vertex, side, position;
+	};
 	/// A spring with a limited force.
 	struct Spring {
 		LinearForm form;
@@ -80,6 +88,7 @@ private:
 
 	void                            number(const std::vector<SoilAtVertex>&);
 	void                            numberSoil(const std::vector<SoilAtVertex>&);
+	void                            numberWater(const std::vector<SoilAtVertex>&);
 	bool                            isSecondOfRing(int vertex) const;
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);
@@ -116,8 +125,10 @@ private:
 	Structure<Dim>&      structure_;
 	std::vector<Station> stations_;
 	std::vector<Spring>  springs_;
-	std::vector<int>     bondSoil_;  ///< first unknowns of the soil to the left and right, by bond
-	std::vector<double>  bondWater_; ///< forces of water between them [N], by bond
+	std::vector<int>     bondSoil_; ///< first unknowns of the soil to the left and right, by bond
+	std::vector<double>  bondArea_; ///< [m], around an axis [m2]
+	std::vector<int>     water_;    ///< unknown pressures by position of the soil
+	std::vector<WetSide> wetSides_;
 	int                  soilUnknowns_ = 0, unknowns_ = 0;
 };
 

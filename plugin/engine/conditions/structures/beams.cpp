@@ -162,7 +162,7 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 			        " as the beam comes in, which has its lengths without stress then and would not contract. Give it a curve that begins at 0 then."));
 		structures.emplace_back();
 		structures.back().beam = coreBeam(*from, listed.name(), model.grid);
-		if (flow) structures.back().beam->leakage = from->permittivity / flow->unitWeight;
+		if (flow) structures.back().beam->leakage = from->permittivity / flow->unitWeight, structures.back().beam->waterPulls = !flow->total;
 		for (size_t i = 0; i < from->anchors.size(); ++i) {
 			const string name = listed.name() + ".anchors[" + std::to_string(i) + "]";
 			structures.back().bars.push_back(coreAnchor(*from->anchors[i], name, *structures.back().beam, model.grid));
