@@ -72,8 +72,8 @@ struct BeamSide {
 	std::vector<double> normalForce; ///< force of the beam on it [N]
 	std::vector<double> gap;         ///< gap that the beam has left [m]
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
-	/// Pressure of water that flows in it at the end of the last step [Pa], which presses the two apart besides; empty:
-	/// there is none.
+	/// Pressure of water that flows in it at the end of the last step [Pa], which presses the two apart besides;
+	/// empty: there is none.
 	std::vector<double> water {};
 };
 

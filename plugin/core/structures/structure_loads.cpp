@@ -43,7 +43,7 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 }
 
 /// Adds the pressures of water that flows: on each side of the beam they press soil and beam apart, and ahead of its
-/// tips the two sides of the soil. The energy is less by the pressure times the volume that opens, so that water fills it.
+/// tips the two sides of the soil. The energy is less by the pressure times the volume that opens: water fills it.
 template <int Dim> void StructureSystem<Dim>::addWater(const Eigen::VectorXd& x, EnergySum& sum) const
 {
 	const Beam& beam  = *structure_.beam;

@@ -17,10 +17,10 @@ struct SoilAtVertex {
 	bool   isWet        = false; ///< water that flows in it presses on the beam, and fills what opens between the two
 };
 
-/// Unknowns are the displacements of the soil at the vertices that have some, Dim each, the pressures of its water there,
-/// and then those of the structure itself: of a beam's vertices, and slips. Displacements are those of the step. They
-/// minimise an energy of the step, here with respect to the structure's own unknowns, so that these never reach the
-/// unknowns of the grid. Its derivative by a pressure is the volume that closes between soil and beam.
+/// Unknowns are the displacements of the soil at the vertices that have some, Dim each, the pressures of its water
+/// there, and then those of the structure itself: of a beam's vertices, and slips. Displacements are those of the step.
+/// They minimise an energy of the step, here with respect to the structure's own unknowns, so that these never reach
+/// the unknowns of the grid. Its derivative by a pressure is the volume that closes between soil and beam.
 template <int Dim> class StructureSystem {
 public:
 	/// The structure must outlive it; the soil by vertex, those of the beam first. Behind them all, by vertex of

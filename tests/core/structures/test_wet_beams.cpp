@@ -78,7 +78,7 @@ namespace {
 		}
 	}
 
-	/// Soil that drains nowhere takes a load of which beam and soil know in the same step: none of it is left to the
+	/// Soil that drains nowhere takes a load of which the beam knows in the same step: none of it is left to the
 	/// springs between them, and what opens there is what the soil around loses.
 	TEST(WetBeams, WaterOfTheSameStepPresses)
 	{
