@@ -163,6 +163,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	double       adapting = 0;
 	askSizes(*this, *scene, mask);
 	adaptCells(adapting);
+	lookAtBodies();
 	if (hasQuestions()) askFunctions<Dim>(agreement);
 	Job<Dim> job      = prepare<Dim>(agreement);
 	double   agreeing = 0;
@@ -204,6 +205,17 @@ void MpmImplicitEngine::adaptCells(double& time)
 	const bool areKnown = grid->dim == 3 ? plausibility.knows<3>(points) : plausibility.knows<2>(points);
 	mergedEnergy += mergeHalves(*this, *scene, points);
 	if (areKnown) grid->dim == 3 ? plausibility.know<3>(points) : plausibility.know<2>(points);
+}
+
+// Bodies fall into parts, or come to stick to each other.
+void MpmImplicitEngine::lookAtBodies()
+{
+	const ValueLock lock;
+	if (!grid || grid->bodies.empty()) return;
+	requireRunnable(*this);
+	updateMaterialPoints(points, *scene, mask);
+	warn(plausibility.once("parts", tear(*this, points)));
+	warn(sticking.warning(*this, points));
 }
 
 bool MpmImplicitEngine::hasQuestions() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "engine/analysis/analysis.hpp"
+#include "engine/conditions/bodies/tearing.hpp"
 #include "engine/conditions/load_curves.hpp"
 #include "engine/engines/PeriodicCounters.hpp"
 #include "engine/engines/job.hpp"
@@ -151,6 +152,7 @@ private:
 	template <int Dim> void         askFunctions(Agreement&);
 	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;
 	void                            adaptCells(double& time);
+	void                            lookAtBodies();
 	bool                            hasQuestions() const;
 	template <int Dim> Job<Dim>     prepare(Agreement&);
 	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
@@ -169,6 +171,7 @@ private:
 	ProgressLine                        progressLine;
 	Plausibility                        plausibility;
 	Splitting                           splitting;
+	Sticking                            sticking;
 	Distribution                        distribution;
 	mutable boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it

@@ -6,7 +6,7 @@ namespace yade {
 
 class MpmBody : public Exposed<MpmBody, Serializable> {
 public:
-	string              name;
+	string              name, partOf;
 	vector<Vector3r>    vertices, initialVertices;
 	vector<vector<int>> pieces;
 
@@ -27,6 +27,8 @@ public:
 		v("pieces", &MpmBody::pieces, 0,
 		  "Segments or triangles of the surface, each as the two or three numbers of its vertices (MpmSurface). Read as a tuple.",
 		  admitting("pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
+		v("partOf", &MpmBody::partOf, readonly,
+		  "Name of the body that it has come off, where that has a contact with itself; empty, the default: none.");
 		v("initialVertices", &MpmBody::initialVertices, readonly,
 		  "Positions of the vertices at the first step [m], empty before it. Pieces are divided until their sides are at most a quarter of a cell, "
 		  "in 3D three quarters.");

@@ -53,7 +53,8 @@ template <int Dim> struct BodyMeeting {
 	double frictionCoefficient = 0;                                       ///< [-]
 	double adhesion            = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double stiffness           = 10;
-	double leakage             = 0; ///< water that passes where they touch: volume by area and time, over the difference of the pressures [m3/(N s)]
+	bool   isOfOne             = false; ///< both are parts of one body
+	double leakage             = 0;     ///< water that passes where they touch: volume by area and time, over the difference of the pressures [m3/(N s)]
 
 	bool isFilled = false; ///< water is between them, also where they do not touch, and presses on both
 
@@ -183,6 +184,7 @@ private:
 	double                  energyGain(const Eigen::VectorXd& d) const;
 	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
 	double                  approach(const BodyMeeting<Dim>&, const Positions& now) const;
+	bool                    areFar(const BodyMeeting<Dim>&, double reach) const;
 	const BodyMeeting<Dim>& meetingOf(const ContactPoint& contactPoint) const { return system_.meetings[contactPoint.meeting]; }
 
 	BodyContacts<Dim>&        system_;

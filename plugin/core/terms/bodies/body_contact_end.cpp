@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -67,12 +68,26 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 	return sum;
 }
 
+/// True if the boxes around the surfaces of two bodies are farther apart than a reach as the step begins.
+template <int Dim> bool BodyContact<Dim>::areFar(const BodyMeeting<Dim>& meeting, double reach) const
+{
+	const auto &slave = start_[meeting.slave], &master = start_[meeting.master];
+	if (slave.empty() || master.empty()) return true;
+	const auto low = [](const std::vector<Vec<Dim>>& x) {
+		return std::accumulate(x.begin(), x.end(), x[0], [](const Vec<Dim>& a, const Vec<Dim>& b) { return Vec<Dim>(a.cwiseMin(b)); });
+	};
+	const auto high = [](const std::vector<Vec<Dim>>& x) {
+		return std::accumulate(x.begin(), x.end(), x[0], [](const Vec<Dim>& a, const Vec<Dim>& b) { return Vec<Dim>(a.cwiseMax(b)); });
+	};
+	return std::max((low(slave) - high(master)).maxCoeff(), (low(master) - high(slave)).maxCoeff()) > reach;
+}
+
 template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d)
 {
 	const ContactState& state  = contactAt(d);
 	const char*         advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
 	for (const auto& meeting : system_.meetings)
-		if (const double moved = approach(meeting, state.now); moved > reach_)
+		if (const double moved = approach(meeting, state.now); moved > reach_ && !(meeting.isOfOne && areFar(meeting, moved)))
 			return { Failure::penetrated,
 				 sentence(
 				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,
@@ -140,6 +155,8 @@ template <int Dim> void BodyContact<Dim>::moveSurfaces(const Positions& now)
 
 template Refusal BodyContact<2>::refusal(const Eigen::VectorXd&);
 template Refusal BodyContact<3>::refusal(const Eigen::VectorXd&);
+template bool    BodyContact<2>::areFar(const BodyMeeting<2>&, double) const;
+template bool    BodyContact<3>::areFar(const BodyMeeting<3>&, double) const;
 template void    BodyContact<2>::commit(const Eigen::VectorXd&);
 template void    BodyContact<3>::commit(const Eigen::VectorXd&);
 

@@ -100,8 +100,9 @@ template <int Dim> void BodyContact<Dim>::addWedge(const ContactPoint& point, do
 
 template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const StepContext<Dim>& step)
 {
-	const auto&   meeting = system_.meetings[number];
-	const auto&   slave   = facets_[meeting.slave];
+	const auto& meeting = system_.meetings[number];
+	if (areFar(meeting, reach_)) return;
+	const auto&   slave = facets_[meeting.slave];
 	Attacher<Dim> ofSlave(step.basis, step.grid, system_.bodies[meeting.slave].layer),
 	        ofMaster(step.basis, step.grid, system_.bodies[meeting.master].layer);
 	const PiecesByCell<Dim> byCell(facets_[meeting.master], step.grid, reach_);

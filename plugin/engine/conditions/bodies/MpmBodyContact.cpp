@@ -4,6 +4,7 @@
 #include "core/grid/surface.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/body_contacts.hpp"
+#include "engine/conditions/bodies/contact_records.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
 #include "yade_api/registration.hpp"
@@ -14,7 +15,10 @@ namespace yade {
 void MpmBodyContact::requireAdmissible() const
 {
 	Exposed<MpmBodyContact, MpmCondition>::requireAdmissible();
-	if (pressures.size() != shears.size() || slave < -1 || slave > 1)
+	size_t     ofPairs = 0;
+	const bool arePairs
+	        = std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.size() == 3 && pair[2] >= 0 && (ofPairs += pair[2], true); });
+	if (pressures.size() != shears.size() || slave < -1 || slave > 1 || !arePairs || (!pairs.empty() && ofPairs != pressures.size()))
 		throw std::invalid_argument("MpmBodyContact: the stored data of its segments or triangles do not match; is the saved file damaged?");
 }
 
@@ -56,6 +60,9 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 		throw std::invalid_argument(
 		        name
 		        + ".filled = True: the water is that of an MpmFlow in flow of an MpmImplicitEngine, whose steps have no inertia. Leave it out, or see to these.");
+	if (isOfOne() && analysis.distributed)
+		throw std::invalid_argument(
+		        name + ".between: contact of body '" + between[0] + "' with itself cannot go with distributed=True yet; leave one of the two out.");
 }
 
 void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
@@ -78,25 +85,25 @@ static Vector3r forceOn(const vector<Vector3r>& at, Real pressure, const Vector3
 // Forces and stresses on the slave.
 void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
 {
-	const int number = slave < 0 ? -1 : analysis.grid->bodyNamed(between[slave]);
-	if (number < 0) return;
-	const MpmBody& body  = *analysis.grid->bodies[number];
-	const int      first = int(picture.corners.size());
-	if (pressures.size() != body.pieces.size()) return;
-	picture.corners.insert(picture.corners.end(), body.vertices.begin(), body.vertices.end());
-	for (size_t i = 0; i < body.pieces.size(); ++i) {
-		vector<int>      piece = body.pieces[i];
-		vector<Vector3r> at;
-		for (int& corner : piece) {
-			at.push_back(body.vertices[corner]);
-			corner += first;
+	for (const ContactRecord& record : recordsOf(*this, *analysis.grid)) {
+		const MpmBody& body  = *analysis.grid->bodies[record.slave];
+		const int      first = int(picture.corners.size());
+		if (record.pressures.size() != body.pieces.size()) continue;
+		picture.corners.insert(picture.corners.end(), body.vertices.begin(), body.vertices.end());
+		for (size_t i = 0; i < body.pieces.size(); ++i) {
+			vector<int>      piece = body.pieces[i];
+			vector<Vector3r> at;
+			for (int& corner : piece) {
+				at.push_back(body.vertices[corner]);
+				corner += first;
+			}
+			picture.add(piece);
+			picture.set("force", forceOn(at, record.pressures[i], record.shears[i], analysis.grid->axisymmetric));
+			picture.set("pressure", record.pressures[i]);
+			picture.set("shear", record.shears[i].norm());
+			picture.set("touches", int(record.pressures[i] > 0));
+			picture.set("contact", int(listed.number));
 		}
-		picture.add(piece);
-		picture.set("force", forceOn(at, pressures[i], shears[i], analysis.grid->axisymmetric));
-		picture.set("pressure", pressures[i]);
-		picture.set("shear", shears[i].norm());
-		picture.set("touches", int(pressures[i] > 0));
-		picture.set("contact", int(listed.number));
 	}
 }
 

@@ -8,33 +8,35 @@ namespace yade {
 
 class MpmBodyContact : public Exposed<MpmBodyContact, MpmCondition> {
 public:
-	vector<string>   between;
-	Real             friction     = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real             adhesion     = std::numeric_limits<Real>::infinity();
-	Real             stiffness    = 10;
-	Real             permittivity = std::numeric_limits<Real>::infinity();
-	bool             filled       = false;
-	Vector3r         force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	Vector3r         moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	int              touching = 0, slipping = 0;
-	int              slave = -1;
-	vector<Real>     pressures;
-	vector<Vector3r> shears;
+	vector<string>      between;
+	Real                friction     = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                adhesion     = std::numeric_limits<Real>::infinity();
+	Real                stiffness    = 10;
+	Real                permittivity = std::numeric_limits<Real>::infinity();
+	bool                filled       = false;
+	Vector3r            force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r            moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	int                 touching = 0, slipping = 0;
+	int                 slave = -1;
+	vector<Real>        pressures;
+	vector<Vector3r>    shears;
+	vector<vector<int>> pairs;
 
 	YADE_API_NAME(MpmBodyContact)
 	static const char* doc()
 	{
 		return "Contact of two bodies of points, filled with mpm.fill(..., body=...): where they touch they press, rub and part, while bodies without one "
 		       "between them stick where they share cells. Each body has nodes of its own.\n\n"
-		       "Contact points on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body has no contact with itself: it "
-		       "sticks.\n\n"
+		       "Contact points on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body named twice may fall into "
+		       "parts, which have contact with each other.\n\n"
 		       "Set first: *between* = ('slab', 'ground') and *friction* [rad], then a step in which bodies move by a quarter of a cell. Page: "
 		       "plugin/docs/classes/MpmBodyContact.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("between", &MpmBodyContact::between, 0, "Names of the two bodies, as given to mpm.fill(..., body=...); without default.",
-		  admitting("the names of two different bodies, as ('slab', 'ground'); there is no default", areTwo));
+		v("between", &MpmBodyContact::between, 0,
+		  "Names of the two bodies, as given to mpm.fill(..., body=...), or the same name twice, for contact between parts of one body; without default.",
+		  admitting("the names of two bodies, as ('slab', 'ground'), or one name twice; there is no default", areTwo));
 		v("friction", &MpmBodyContact::friction, 0, "Angle of friction [rad], from 0 to below pi/2: radians(30) of 30 degrees; without default.",
 		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", isFrictionAngle));
 		v("adhesion", &MpmBodyContact::adhesion, 0, "Cap of the shear stress [Pa] >= 0, as of undrained clay; inf, the default: none.",
@@ -58,6 +60,8 @@ public:
 		v("pressures", &MpmBodyContact::pressures, readonly,
 		  "Pressure >= 0 [Pa] on each of the *pieces* of that body (MpmBody), in their order, at the end of the last converged step; empty before the first.");
 		v("shears", &MpmBodyContact::shears, readonly, "Shear stress [Pa] on each of them.");
+		v("pairs", &MpmBodyContact::pairs, readonly,
+		  "Of bodies that have come apart: numbers in MpmGrid.bodies of the body with contact points and of the other, and how many of *pressures* are theirs; else empty.");
 	}
 
 	// Refuses records of segments or facets that do not go together, too.
@@ -71,6 +75,9 @@ public:
 	void requireFitting(const Analysis&, const string& name) const override;
 	bool partsBodies() const override { return true; }
 
+	// True if it is between the parts of one body.
+	bool isOfOne() const { return between.size() == 2 && between[0] == between[1]; }
+
 	bool        goesOn() const override { return true; }
 	bool        mayHold(int, Real, Real) const override { return true; }
 	void        tell(Rows&, const Analysis&, const Listed&) const override;
@@ -78,7 +85,7 @@ public:
 	void        draw(Picture&, const Analysis&, const Listed&) const override;
 
 private:
-	static bool areTwo(const vector<string>& names) { return names.size() == 2 && !names[0].empty() && !names[1].empty() && names[0] != names[1]; }
+	static bool areTwo(const vector<string>& names) { return names.size() == 2 && !names[0].empty() && !names[1].empty(); }
 };
 
 } // namespace yade

@@ -36,6 +36,7 @@ template <int Dim> void MeetingBodies<Dim>::hold(gimpm::Model<Dim>& model)
 template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact, const Surroundings<Dim>& around, const gimpm::Model<Dim>& model) const
 {
 	if (contact.slave >= 0) return contact.slave;
+	if (contact.isOfOne()) return 0;
 	Real        modulus[2] {}, volume[2] {};
 	const auto& cloud = around.cloud;
 	for (size_t p = 0; p < around.points.size(); ++p)
@@ -125,7 +126,7 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 	for (const Vector3r& x : from.initialVertices.empty() ? from.vertices : from.initialVertices)
 		body.surface.vertices0.push_back(x.head<Dim>());
 	const bool isMet = std::any_of(given.begin(), given.end(), [&](const auto& contact) {
-		return std::find(contact->between.begin(), contact->between.end(), from.name) != contact->between.end();
+		return std::find(contact->between.begin(), contact->between.end(), nameOfWhole(grid, number)) != contact->between.end();
 	});
 	for (size_t i = 0; isMet && i < from.pieces.size(); ++i) {
 		body.surface.pieces.emplace_back();
@@ -136,21 +137,35 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 	return body;
 }
 
-template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const MpmBodyContact& contact) const
+template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const MpmBodyContact& contact, ContactRecord record) const
 {
 	gimpm::BodyMeeting<Dim> meeting;
-	meeting.slave               = grid.bodyNamed(contact.between[contact.slave]);
-	meeting.master              = grid.bodyNamed(contact.between[1 - contact.slave]);
+	meeting.slave = record.slave, meeting.master = record.master, meeting.isOfOne = contact.isOfOne();
 	meeting.frictionCoefficient = std::tan(contact.friction);
 	meeting.adhesion            = contact.adhesion;
 	meeting.stiffness           = contact.stiffness;
 	meeting.isFilled            = contact.filled;
 	meeting.touching = contact.touching, meeting.slipping = contact.slipping;
-	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
-	meeting.pressure = contact.pressures;
-	for (const Vector3r& shear : contact.shears)
+	if (record.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
+	meeting.pressure = std::move(record.pressures);
+	for (const Vector3r& shear : record.shears)
 		meeting.shear.push_back(shear.head<Dim>());
 	return meeting;
+}
+
+// One for each pair of parts of the two bodies.
+template <int Dim> void MeetingBodies<Dim>::addMeetings(int number, Real leakage)
+{
+	const MpmBodyContact& contact = *given[number];
+	const auto            records = recordsOf(contact, grid);
+	for (const auto& [first, second] : pairsOf(contact, grid)) {
+		ContactRecord record { contact.slave == 0 ? first : second, contact.slave == 0 ? second : first };
+		for (const ContactRecord& kept : records)
+			if (kept.slave == record.slave && kept.master == record.master) record = kept;
+		contactOf.push_back(number);
+		system->meetings.push_back(coreMeeting(contact, std::move(record)));
+		system->meetings.back().leakage = leakage;
+	}
 }
 
 // Leakage of a meeting; where water passes as in soil, by what conducts least in the two bodies.
@@ -173,10 +188,9 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 	requireNonePast(around.points, model, analysis, layers);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
 		system->bodies.push_back(coreBody(int(b)));
-	for (const auto& contact : given) {
-		contact->slave = slaveOf(*contact, around, model);
-		system->meetings.push_back(coreMeeting(*contact));
-		system->meetings.back().leakage = leakageOf(*contact, around, *model.division);
+	for (size_t i = 0; i < given.size(); ++i) {
+		given[i]->slave = slaveOf(*given[i], around, model);
+		addMeetings(int(i), leakageOf(*given[i], around, *model.division));
 	}
 	model.coupledTerms.push_back([known = system](const gimpm::StepContext<Dim>& step, const gimpm::State& begin) {
 		return std::make_unique<gimpm::BodyContact<Dim>>(*known, step, begin);
@@ -216,21 +230,32 @@ template <int Dim> void MeetingBodies<Dim>::reach(const StepOutcome<Dim>&)
 		for (const auto& piece : surface.pieces)
 			to.pieces.emplace_back(piece.begin(), piece.end());
 	}
-	for (size_t i = 0; i < given.size(); ++i) {
-		const auto&     meeting = system->meetings[i];
-		MpmBodyContact& to      = *given[i];
-		const Real      sign    = to.slave == 0 ? 1 : -1;
-		to.force.setZero();
-		to.force.template head<Dim>() = sign * meeting.force;
-		to.moment                     = sign * meeting.moment;
-		to.touching = meeting.touching, to.slipping = meeting.slipping;
-		to.pressures = meeting.pressure;
-		to.shears.clear();
+	for (size_t i = 0; i < given.size(); ++i)
+		keep(int(i));
+}
+
+// Writes results of the last step to a contact.
+template <int Dim> void MeetingBodies<Dim>::keep(int number)
+{
+	MpmBodyContact&       to   = *given[number];
+	const Real            sign = to.slave == 0 ? 1 : -1;
+	vector<ContactRecord> records;
+	to.force.setZero(), to.moment.setZero();
+	to.touching = to.slipping = 0;
+	for (size_t m = 0; m < contactOf.size(); ++m) {
+		const auto& meeting = system->meetings[m];
+		if (contactOf[m] != number) continue;
+		to.force.template head<Dim>() += sign * meeting.force;
+		to.moment += sign * meeting.moment;
+		to.touching += meeting.touching, to.slipping += meeting.slipping;
+		if (to.isOfOne() && meeting.touching == 0) continue;
+		records.push_back({ meeting.slave, meeting.master, meeting.pressure });
 		for (const auto& shear : meeting.shear) {
-			to.shears.push_back(Vector3r::Zero());
-			to.shears.back().template head<Dim>() = shear;
+			records.back().shears.push_back(Vector3r::Zero());
+			records.back().shears.back().template head<Dim>() = shear;
 		}
 	}
+	keepRecords(to, grid, records);
 }
 
 template class MeetingBodies<2>;

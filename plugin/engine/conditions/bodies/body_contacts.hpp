@@ -3,7 +3,7 @@
 // Bodies of points in contact, between the conditions of a scene and the term of a step.
 #include "core/terms/bodies/body_contact.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/conditions/bodies/MpmBodyContact.hpp"
+#include "engine/conditions/bodies/contact_records.hpp"
 #include <set>
 
 namespace yade {
@@ -23,18 +23,21 @@ public:
 
 private:
 	gimpm::MeetingBody<Dim>       coreBody(int number) const;
-	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&) const;
+	void                          keep(int contact);
+	void                          addMeetings(int contact, Real leakage);
+	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&, ContactRecord) const;
 	Real                          leakageOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Division&) const;
 	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
 	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
 	void                          requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;
-	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
+	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + nameOfWhole(grid, body) + "'"; }
 
 	const Analysis&                           analysis;
 	const MpmGrid&                            grid;
 	vector<shared_ptr<MpmBodyContact>>        given;
-	vector<int>                               layers; // layer by the number of the body, from -1 on
-	std::shared_ptr<gimpm::BodyContacts<Dim>> system; // its terms refer to it
+	vector<int>                               contactOf; // number of the contact by that of the pair
+	vector<int>                               layers;    // layer by the number of the body, from -1 on
+	std::shared_ptr<gimpm::BodyContacts<Dim>> system;    // its terms refer to it
 };
 
 } // namespace yade

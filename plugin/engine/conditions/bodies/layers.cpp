@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/bodies/layers.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/conditions/bodies/MpmBodyContact.hpp"
+#include "engine/conditions/bodies/contact_records.hpp"
 #include <set>
 
 namespace yade {
 
-bool meet(const Analysis& analysis, int one, int other)
+static bool meet(const Analysis& analysis, const string& one, const string& other)
 {
-	if (one < 0 || other < 0) return false;
-	const std::set<string> names { analysis.grid->bodies[one]->name, analysis.grid->bodies[other]->name };
+	const std::set<string> names { one, other };
 	for (const Listed& listed : analysis.conditions())
 		if (const auto* contact = dynamic_cast<const MpmBodyContact*>(listed.condition.get());
 		    contact && std::set<string>(contact->between.begin(), contact->between.end()) == names)
 			return true;
 	return false;
+}
+
+bool meet(const Analysis& analysis, int one, int other)
+{
+	if (one < 0 || other < 0 || one == other) return false;
+	return meet(analysis, nameOfWhole(*analysis.grid, one), nameOfWhole(*analysis.grid, other));
 }
 
 vector<int> bodyLayers(const Analysis& analysis)
@@ -59,6 +64,9 @@ void requireOwnNodes(const Analysis& analysis, const string& body, const string&
 		        given, ": no body is called that; ",
 		        known.empty() ? "MpmGrid.bodies is empty: fill it with mpm.fill(..., body='" + body + "') and the MpmGrid of the engine."
 		                      : "there are " + known + "."));
+	if (meet(analysis, body, body))
+		throw std::invalid_argument(
+		        given + " names a body that has a contact with itself: it may fall into parts, which have nodes of their own. Leave body out.");
 	if (!analysis.bodiesMeet())
 		throw std::invalid_argument(
 		        given

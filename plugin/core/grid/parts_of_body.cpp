@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/parts_of_body.hpp"
+#include "core/grid/cells_around.hpp"
+#include <numeric>
+
+namespace gimpm {
+namespace {
+
+/// Disjoint sets of numbers.
+class Sets {
+public:
+	explicit Sets(int count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
+
+	int root(int i)
+	{
+		while (above_[i] != i)
+			i = above_[i] = above_[above_[i]];
+		return i;
+	}
+	void join(int i, int j) { above_[std::max(root(i), root(j))] = std::min(root(i), root(j)); }
+
+	/// Numbers of the sets, in the order of their first members.
+	std::vector<int> numbers()
+	{
+		std::vector<int> found(above_.size()), number(above_.size(), -1);
+		for (int i = 0, next = 0; i < int(above_.size()); ++i) {
+			int& own = number[root(i)];
+			if (own < 0) own = next++;
+			found[i] = own;
+		}
+		return found;
+	}
+
+private:
+	std::vector<int> above_;
+};
+
+/// A box in a cell.
+using InCell = std::pair<Key, int>;
+
+/// Boxes by the cells that they reach into, sorted.
+template <int Dim> std::vector<InCell> boxesInCells(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double size)
+{
+	constexpr double    slack = 1e-6; // reach that counts as none [cells]
+	std::vector<InCell> found;
+	for (int b = 0; b < int(boxes.size()); ++b) {
+		const Index<Dim> first
+		        = ((boxes[b].low - origin) / size).array().unaryExpr([](double x) { return std::floor(x + slack); }).template cast<int>(),
+		        last    = ((boxes[b].high - origin) / size).array().unaryExpr([](double x) { return std::floor(x - slack); }).template cast<int>();
+		Index<Dim> cell = first;
+		for (int a = 0; a < Dim;) {
+			found.emplace_back(Grid<Dim>::key(cell), b);
+			for (a = 0; a < Dim && ++cell[a] > last[a]; ++a)
+				cell[a] = first[a];
+		}
+	}
+	std::sort(found.begin(), found.end());
+	return found;
+}
+
+/// Calls f(cell) for the neighbours of a cell of higher keys, and the cell itself.
+template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
+{
+	for (int n = 0; n < cellsAround<Dim>; ++n)
+		if (const Key near = Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n)); near >= cell) f(near);
+}
+
+} // namespace
+
+template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double cellSize)
+{
+	const auto       inCells = boxesInCells(boxes, origin, cellSize);
+	Sets             sets(int(boxes.size()));
+	std::vector<Key> cells;
+	std::vector<int> firstIn; // by cell
+	for (const auto& [cell, box] : inCells) {
+		if (cells.empty() || cells.back() != cell) cells.push_back(cell), firstIn.push_back(box);
+		sets.join(box, firstIn.back());
+	}
+	for (std::size_t c = 0; c < cells.size(); ++c)
+		forCellsAhead<Dim>(cells[c], [&](Key near) {
+			if (const int other = find(cells, near); other >= 0) sets.join(firstIn[c], firstIn[other]);
+		});
+	return sets.numbers();
+}
+
+template <int Dim> std::vector<int> partsByTouch(const std::vector<DomainBox<Dim>>& boxes, double gap, double cellSize)
+{
+	const auto touch = [&](const DomainBox<Dim>& one, const DomainBox<Dim>& other) {
+		return (one.low - other.high).maxCoeff() <= gap && (other.low - one.high).maxCoeff() <= gap;
+	};
+	std::vector<InCell> centres;
+	for (int b = 0; b < int(boxes.size()); ++b)
+		centres.emplace_back(Grid<Dim>::key(((boxes[b].low + boxes[b].high) / (2 * cellSize)).array().floor().template cast<int>()), b);
+	std::sort(centres.begin(), centres.end());
+	Sets sets(int(boxes.size()));
+	for (const auto& [cell, box] : centres)
+		forCellsAhead<Dim>(cell, [&, box = box](Key near) {
+			for (auto i = std::lower_bound(centres.begin(), centres.end(), InCell(near, -1)); i != centres.end() && i->first == near; ++i)
+				if (touch(boxes[box], boxes[i->second])) sets.join(box, i->second);
+		});
+	return sets.numbers();
+}
+
+template <int Dim>
+std::set<std::pair<int, int>> sharingNodes(const std::vector<DomainBox<Dim>>& boxes, const std::vector<int>& owners, const Vec<Dim>& origin, double cellSize)
+{
+	std::vector<InCell> cells; // with owners
+	for (const auto& [cell, box] : boxesInCells(boxes, origin, cellSize))
+		cells.emplace_back(cell, owners[box]);
+	std::sort(cells.begin(), cells.end());
+	cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	std::set<std::pair<int, int>> found;
+	for (const auto& [cell, owner] : cells)
+		forCellsAhead<Dim>(cell, [&, owner = owner](Key near) {
+			for (auto i = std::lower_bound(cells.begin(), cells.end(), InCell(near, -1)); i != cells.end() && i->first == near; ++i)
+				if (i->second != owner) found.insert(std::minmax(owner, i->second));
+		});
+	return found;
+}
+
+template <int Dim> std::vector<int> nearestBoxes(const std::vector<DomainBox<Dim>>& boxes, const std::vector<Vec<Dim>>& positions, double cellSize)
+{
+	const auto       inCells = boxesInCells<Dim>(boxes, Vec<Dim>::Zero(), cellSize);
+	const auto       away    = [&](int box, const Vec<Dim>& x) { return (boxes[box].low - x).cwiseMax(x - boxes[box].high).cwiseMax(0.).squaredNorm(); };
+	std::vector<int> nearest;
+	for (const Vec<Dim>& x : positions) {
+		int        best  = -1;
+		double     least = std::numeric_limits<double>::infinity();
+		const auto look  = [&](int box) {
+                        if (const double far = away(box, x); far < least) least = far, best = box;
+		};
+		const Index<Dim> cell = (x / cellSize).array().floor().template cast<int>();
+		for (int n = 0; n < cellsAround<Dim>; ++n) {
+			const Key near = Grid<Dim>::key(cell + offsetAround<Dim>(n));
+			for (auto i = std::lower_bound(inCells.begin(), inCells.end(), InCell(near, -1)); i != inCells.end() && i->first == near; ++i)
+				look(i->second);
+		}
+		for (int box = 0, isFar = best < 0; isFar && box < int(boxes.size()); ++box)
+			look(box);
+		nearest.push_back(best);
+	}
+	return nearest;
+}
+
+template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<2>>&, const Vec<2>&, double);
+template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<3>>&, const Vec<3>&, double);
+template std::vector<int>              partsByTouch(const std::vector<DomainBox<2>>&, double, double);
+template std::vector<int>              partsByTouch(const std::vector<DomainBox<3>>&, double, double);
+template std::set<std::pair<int, int>> sharingNodes(const std::vector<DomainBox<2>>&, const std::vector<int>&, const Vec<2>&, double);
+template std::set<std::pair<int, int>> sharingNodes(const std::vector<DomainBox<3>>&, const std::vector<int>&, const Vec<3>&, double);
+template std::vector<int>              nearestBoxes(const std::vector<DomainBox<2>>&, const std::vector<Vec<2>>&, double);
+template std::vector<int>              nearestBoxes(const std::vector<DomainBox<3>>&, const std::vector<Vec<3>>&, double);
+
+} // namespace gimpm
