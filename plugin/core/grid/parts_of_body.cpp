@@ -35,28 +35,76 @@ private:
 	std::vector<int> above_;
 };
 
+/// Calls f(cell) for the cells that a box reaches into.
+template <int Dim, class F> void forCellsOf(const DomainBox<Dim>& box, const Vec<Dim>& origin, double size, F&& f)
+{
+	constexpr double slack = 1e-6; // reach that counts as none [cells]
+	Index<Dim>       first, last;
+	for (int a = 0; a < Dim; ++a)
+		first[a] = int(std::floor((box.low[a] - origin[a]) / size + slack)), last[a] = int(std::floor((box.high[a] - origin[a]) / size - slack));
+	Index<Dim> cell = first;
+	for (int a = 0; a < Dim;) {
+		f(cell);
+		for (a = 0; a < Dim && ++cell[a] > last[a]; ++a)
+			cell[a] = first[a];
+	}
+}
+
 /// A box in a cell.
 using InCell = std::pair<Key, int>;
 
 /// Boxes by the cells that they reach into, sorted.
 template <int Dim> std::vector<InCell> boxesInCells(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double size)
 {
-	constexpr double    slack = 1e-6; // reach that counts as none [cells]
 	std::vector<InCell> found;
-	for (int b = 0; b < int(boxes.size()); ++b) {
-		const Index<Dim> first
-		        = ((boxes[b].low - origin) / size).array().unaryExpr([](double x) { return std::floor(x + slack); }).template cast<int>(),
-		        last    = ((boxes[b].high - origin) / size).array().unaryExpr([](double x) { return std::floor(x - slack); }).template cast<int>();
-		Index<Dim> cell = first;
-		for (int a = 0; a < Dim;) {
-			found.emplace_back(Grid<Dim>::key(cell), b);
-			for (a = 0; a < Dim && ++cell[a] > last[a]; ++a)
-				cell[a] = first[a];
-		}
-	}
+	for (int b = 0; b < int(boxes.size()); ++b)
+		forCellsOf(boxes[b], origin, size, [&](const Index<Dim>& cell) { found.emplace_back(Grid<Dim>::key(cell), b); });
 	std::sort(found.begin(), found.end());
 	return found;
 }
+
+/// First boxes of cells, in a block of cells with a margin of one; for boxes that fill some of it.
+template <int Dim> class Block {
+public:
+	Block(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double size)
+	{
+		if (boxes.empty()) return;
+		Vec<Dim> low = boxes[0].low, high = boxes[0].high;
+		for (const auto& box : boxes)
+			low = low.cwiseMin(box.low), high = high.cwiseMax(box.high);
+		const auto cellOf = [&](const Vec<Dim>& x) { return Index<Dim>(((x - origin) / size).array().floor().template cast<int>()); };
+		low_ = cellOf(low) - Index<Dim>::Constant(1), count_ = cellOf(high) - low_ + Index<Dim>::Constant(2);
+		const double cells = count_.template cast<double>().prod();
+		isFilled_          = cells < 1e4 + 64. * double(boxes.size());
+		if (isFilled_) first_.assign(std::size_t(cells), -1);
+	}
+	bool isFilled() const { return isFilled_; }
+	int& firstIn(const Index<Dim>& cell) { return first_[number(cell)]; }
+
+	/// Calls f(box, box of a neighbouring cell).
+	template <class F> void forNeighbours(F&& f) const
+	{
+		std::vector<std::ptrdiff_t> ahead;
+		for (int n = cellsAround<Dim> / 2 + 1; n < cellsAround<Dim>; ++n)
+			ahead.push_back(number(low_ + offsetAround<Dim>(n)));
+		for (std::size_t c = 0; c < first_.size(); ++c)
+			for (const auto step : ahead)
+				if (first_[c] >= 0 && first_[c + step] >= 0) f(first_[c], first_[c + step]);
+	}
+
+private:
+	std::ptrdiff_t number(const Index<Dim>& cell) const
+	{
+		std::ptrdiff_t number = 0;
+		for (int a = Dim - 1; a >= 0; --a)
+			number = number * count_[a] + cell[a] - low_[a];
+		return number;
+	}
+
+	Index<Dim>       low_ = Index<Dim>::Zero(), count_ = Index<Dim>::Zero();
+	bool             isFilled_ = true;
+	std::vector<int> first_; // -1: none
+};
 
 /// Calls f(cell) for the neighbours of a cell of higher keys, and the cell itself.
 template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
@@ -69,11 +117,20 @@ template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
 
 template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double cellSize)
 {
-	const auto       inCells = boxesInCells(boxes, origin, cellSize);
-	Sets             sets(int(boxes.size()));
+	Sets       sets(int(boxes.size()));
+	Block<Dim> block(boxes, origin, cellSize);
+	if (block.isFilled()) {
+		for (int b = 0; b < int(boxes.size()); ++b)
+			forCellsOf(boxes[b], origin, cellSize, [&](const Index<Dim>& cell) {
+				int& first = block.firstIn(cell);
+				first < 0 ? void(first = b) : sets.join(b, first);
+			});
+		block.forNeighbours([&](int one, int other) { sets.join(one, other); });
+		return sets.numbers();
+	}
 	std::vector<Key> cells;
 	std::vector<int> firstIn; // by cell
-	for (const auto& [cell, box] : inCells) {
+	for (const auto& [cell, box] : boxesInCells(boxes, origin, cellSize)) {
 		if (cells.empty() || cells.back() != cell) cells.push_back(cell), firstIn.push_back(box);
 		sets.join(box, firstIn.back());
 	}

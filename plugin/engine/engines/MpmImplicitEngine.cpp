@@ -212,10 +212,12 @@ void MpmImplicitEngine::lookAtBodies()
 {
 	const ValueLock lock;
 	if (!grid || grid->bodies.empty()) return;
+	const bool tears = mayTear(*this), sticks = sticking.mayBegin(*this);
+	if (!tears && !sticks) return;
 	requireRunnable(*this);
 	updateMaterialPoints(points, *scene, mask);
-	warn(plausibility.once("parts", tear(*this, points)));
-	warn(sticking.warning(*this, points));
+	if (tears) warn(plausibility.once("parts", tear(*this, points)));
+	if (sticks) warn(sticking.warning(*this, points));
 }
 
 bool MpmImplicitEngine::hasQuestions() const

@@ -229,50 +229,71 @@ namespace {
 		return doubt;
 	}
 
+	// Pairs whose domains share nodes, of those that are asked for.
 	template <int Dim>
-	std::set<std::pair<int, int>> pairsThatStick(const Analysis& analysis, const vector<MaterialPoint>& points, std::set<std::pair<int, int>> pairs)
+	std::set<std::pair<int, int>> pairsThatStick(const Analysis& analysis, const vector<MaterialPoint>& points, const std::set<std::pair<int, int>>& pairs)
 	{
-		Boxes<Dim>  boxes;
-		vector<int> owners;
-		for (const MaterialPoint& point : points)
-			boxes.push_back(boxOf<Dim>(point)), owners.push_back(point.state->body);
-		const auto sharing = gimpm::sharingNodes<Dim>(boxes, owners, analysis.grid->origin.template head<Dim>(), analysis.grid->cellSize);
-		for (auto pair = pairs.begin(); pair != pairs.end();)
-			pair = sharing.count(*pair) ? std::next(pair) : pairs.erase(pair);
-		return pairs;
+		const Real                           h = analysis.grid->cellSize;
+		std::map<int, gimpm::DomainBox<Dim>> around; // all domains of a body
+		for (const MaterialPoint& point : points) {
+			const auto box         = boxOf<Dim>(point);
+			const auto [at, isNew] = around.emplace(point.state->body, box);
+			if (!isNew) at->second = { at->second.low.cwiseMin(box.low), at->second.high.cwiseMax(box.high) };
+		}
+		std::set<std::pair<int, int>> found;
+		for (const auto& [one, other] : pairs) {
+			if (!around.count(one) || !around.count(other)) continue;
+			const gimpm::Vec<Dim> low  = around[one].low.cwiseMax(around[other].low).array() - 2 * h,
+			                      high = around[one].high.cwiseMin(around[other].high).array() + 2 * h;
+			if ((high - low).minCoeff() < 0) continue;
+			Boxes<Dim>  boxes;
+			vector<int> owners;
+			for (const MaterialPoint& point : points) {
+				if (point.state->body != one && point.state->body != other) continue;
+				const auto box = boxOf<Dim>(point);
+				if ((box.low - high).maxCoeff() <= 0 && (low - box.high).maxCoeff() <= 0)
+					boxes.push_back(box), owners.push_back(point.state->body);
+			}
+			if (!gimpm::sharingNodes<Dim>(boxes, owners, analysis.grid->origin.template head<Dim>(), h).empty()) found.insert({ one, other });
+		}
+		return found;
 	}
+}
+
+bool mayTear(const Analysis& analysis)
+{
+	const auto contacts = contactsOf(analysis);
+	return std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->isOfOne(); });
 }
 
 string tear(const Analysis& analysis, const vector<MaterialPoint>& points)
 {
-	const auto contacts = contactsOf(analysis);
-	if (std::none_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->isOfOne(); })) return "";
 	MpmGrid& grid = *analysis.grid;
-	return grid.dim == 3 ? tearIn<3>(grid, contacts, points) : tearIn<2>(grid, contacts, points);
+	return grid.dim == 3 ? tearIn<3>(grid, contactsOf(analysis), points) : tearIn<2>(grid, contactsOf(analysis), points);
+}
+
+bool Sticking::mayBegin(const Analysis& analysis)
+{
+	const int count = analysis.distributed ? 0 : int(analysis.grid->bodies.size());
+	pairs.clear();
+	for (int one = -1; one < count; ++one)
+		for (int other = one + 1; other < count; ++other)
+			if (!known.count({ one, other }) && !meet(analysis, one, other)) pairs.insert({ one, other });
+	return !pairs.empty();
 }
 
 string Sticking::warning(const Analysis& analysis, const vector<MaterialPoint>& points)
 {
-	const auto&                   bodies = analysis.grid->bodies;
-	std::set<std::pair<int, int>> pairs;
-	for (int one = -1; one < int(bodies.size()); ++one)
-		for (int other = one + 1; other < int(bodies.size()); ++other)
-			if (!meet(analysis, one, other)) pairs.insert({ one, other });
-	if (pairs.empty() || analysis.distributed) return "";
-	const auto now    = analysis.grid->dim == 3 ? pairsThatStick<3>(analysis, points, pairs) : pairsThatStick<2>(analysis, points, pairs);
-	const auto before = known;
-	known             = now;
-	for (const auto& [one, other] : now) {
-		if (!before || before->count({ one, other })) continue;
-		const string first  = one < 0 ? "points without a name" : "body '" + nameOfWhole(*analysis.grid, one) + "'",
-		             second = nameOfWhole(*analysis.grid, other);
-		return first + " and body '" + second
-		        + "' begin to share cells, and have no MpmBodyContact between them: from now on they stick. If they are meant to "
-		        + (one < 0 ? "part again, fill both by name (mpm.fill(..., body=...)) and give contacts."
-		                   : "part again, add MpmBodyContact(between=('" + nameOfWhole(*analysis.grid, one) + "', '" + second
-		                           + "'), friction=...) to contacts.");
-	}
-	return "";
+	const auto found   = analysis.grid->dim == 3 ? pairsThatStick<3>(analysis, points, pairs) : pairsThatStick<2>(analysis, points, pairs);
+	const bool isFirst = !std::exchange(hasLooked, true);
+	known.insert(found.begin(), found.end());
+	if (isFirst || found.empty()) return "";
+	const auto& [one, other] = *found.begin();
+	const string second = "'" + nameOfWhole(*analysis.grid, other) + "'", first = one < 0 ? "" : "'" + nameOfWhole(*analysis.grid, one) + "'";
+	return (one < 0 ? "points without a name" : "body " + first) + " and body " + second
+	        + " begin to share cells, and have no MpmBodyContact between them: from now on they stick to each other. If they are meant to part again, "
+	        + (one < 0 ? "fill both by name (mpm.fill(..., body=...)) and give them a contact."
+	                   : "add MpmBodyContact(between=(" + first + ", " + second + "), friction=...) to contacts.");
 }
 
 } // namespace yade
