@@ -26,24 +26,36 @@ template <int Dim> void addLeaves(Key cell, Key node, const Refinement<Dim>& ref
 		addLeaves(lowest + Grid<Dim>::keyOffset(child, level - 1), node, refinement, leaves);
 }
 
+/// Cells of nodes in their layers, in a refined grid leaves.
+template <int Dim> std::vector<Key> cellsOf(const std::vector<Key>& nodes, const Refinement<Dim>* refinement)
+{
+	std::vector<Key> cells;
+	for (const Key node : nodes)
+		for (int corner = 0; corner < 1 << Dim; ++corner) {
+			const Key cell = node - Grid<Dim>::keyOffset(corner, Grid<Dim>::level(node));
+			if (refinement) addLeaves(cell, node, *refinement, cells);
+			else
+				cells.push_back(cell);
+		}
+	return cells;
+}
+
 } // namespace
+
+template <int Dim> Parting<Dim>::Bits::Bits(std::vector<Key> keys)
+{
+	std::sort(keys.begin(), keys.end(), [](Key a, Key b) { return in(0, a) < in(0, b); });
+	for (const Key key : keys) {
+		if (keys_.empty() || keys_.back() != in(0, key)) keys_.push_back(in(0, key)), bits_.push_back(0);
+		bits_.back() |= Grid<Dim>::layer(key);
+	}
+}
 
 template <int Dim>
 Parting<Dim>::Parting(
         std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement, std::vector<LeakyCut<Dim>> leaks)
-        : own_(std::move(own)), layerAt_(std::move(layerAt)), refinement_(std::move(refinement)), leaks_(std::move(leaks))
+        : nodes_(own), cells_(cellsOf(own, refinement.get())), layerAt_(std::move(layerAt)), refinement_(std::move(refinement)), leaks_(std::move(leaks))
 {
-	for (const Key node : own_) {
-		if (layers_.empty() || layers_.back() != Grid<Dim>::layer(node)) layers_.push_back(Grid<Dim>::layer(node));
-		for (int corner = 0; corner < 1 << Dim; ++corner) {
-			const Key cell = node - Grid<Dim>::keyOffset(corner, Grid<Dim>::level(node));
-			if (refinement_) addLeaves(cell, node, *refinement_, cells_);
-			else
-				cells_.push_back(cell);
-		}
-	}
-	std::sort(cells_.begin(), cells_.end());
-	cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
 }
 
 template class Parting<2>;

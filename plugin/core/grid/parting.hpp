@@ -17,14 +17,16 @@ template <int Dim> struct LeakyCut {
 	double                    leakage; ///< volume that passes by area and time, over the difference of the pressures [m3/(N s)]
 };
 
-/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those whose cells the line
-/// cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to the
-/// nodes of layer 0 in their places, and a cell without functions of such nodes is the one of layer 0: so soil is one
-/// body around the ends of the line. In a refined grid hanging nodes are tied within their layer first.
+/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer), a number with one bit. Those
+/// whose cells the line cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The
+/// others are tied to the nodes of layer 0 in their places, and a cell without functions of such nodes is the one of
+/// layer 0: so soil is one body around the ends of the line. Beside several lines a layer has the bits of all of them,
+/// and a node, or a cell, is the one of those bits of the lines that cut it. In a refined grid hanging nodes are tied
+/// within their layer first.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes of their own, sorted, all in layers above 0 and not hanging; and the layer of a point by
-	/// its position. Null: the cells are equal.
+	/// Keys of the nodes that lines cut, each in the layer of a line, none of them hanging; and the layer of a point
+	/// by its position. Null: the cells are equal.
 	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement = {},
 	        std::vector<LeakyCut<Dim>> leaks = {});
 
@@ -33,35 +35,51 @@ public:
 
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 
-	bool isOwn(Key node) const { return find(own_, node) >= 0; }
+	bool isOwn(Key node) const { return Grid<Dim>::layer(node) > 0 && nodeFor(node) == node; }
 	/// The node that stands for one of a layer that does not hang.
-	Key nodeFor(Key node) const { return isOwn(node) ? node : in(0, node); }
+	Key nodeFor(Key node) const { return in(Grid<Dim>::layer(node) & nodes_.bitsOf(in(0, node)), node); }
 	/// The cell that stands for one of a layer, in a refined grid a leaf or a part of one.
-	Key cellFor(Key cell) const { return hasOwnNode(cell) ? cell : in(0, cell); }
+	Key cellFor(Key cell) const { return in(Grid<Dim>::layer(cell) & bitsOf(cell), cell); }
 
 	/// Calls f(cell beyond a face, layer of the face) by a cell and the one beyond, in its layer: for the one that
-	/// stands for this, and from a cell of layer 0 without nodes of their own for those of all layers.
+	/// stands for this, and those on all sides of the lines that begin there.
 	template <class F> void forSidesBeyond(Key cell, Key beyond, F&& f) const
 	{
-		f(cellFor(beyond), Grid<Dim>::layer(cell));
-		if (Grid<Dim>::layer(cell) > 0) return;
-		for (const int layer : layers_)
-			if (!hasOwnNode(in(layer, cell)) && hasOwnNode(in(layer, beyond))) f(in(layer, beyond), layer);
+		const int layer = Grid<Dim>::layer(cell), there = bitsOf(beyond), begins = there & ~bitsOf(cell);
+		for (int sides = 0;; sides = (sides - begins) & begins) { // all parts of these bits
+			f(in((layer & there) | sides, beyond), layer | sides);
+			if (sides == begins) return;
+		}
 	}
 
 private:
-	/// True if a function of an own node is in a cell.
-	bool hasOwnNode(Key cell) const
+	/// Bits of the lines that cut what keys of layer 0 stand for.
+	class Bits {
+	public:
+		/// Takes keys in layers of one bit.
+		explicit Bits(std::vector<Key> keys);
+		int bitsOf(Key key) const
+		{
+			const int found = find(keys_, key);
+			return found < 0 ? 0 : bits_[found];
+		}
+
+	private:
+		std::vector<Key> keys_;
+		std::vector<int> bits_;
+	};
+
+	/// Lines whose nodes have functions in a cell.
+	int bitsOf(Key cell) const
 	{
-		if (Grid<Dim>::layer(cell) == 0) return false;
-		return find(cells_, refinement_ ? refinement_->leafOf(cell) : cell) >= 0;
+		const Key first = in(0, cell);
+		return cells_.bitsOf(refinement_ ? refinement_->leafOf(first) : first);
 	}
 
-	std::vector<Key>                       own_, cells_; // cells with own nodes, in a refined grid leaves, sorted
+	Bits                                   nodes_, cells_; // in a refined grid leaves
 	std::function<int(const Vec<Dim>&)>    layerAt_;
 	std::shared_ptr<const Refinement<Dim>> refinement_;
 	std::vector<LeakyCut<Dim>>             leaks_;
-	std::vector<int>                       layers_;
 };
 
 } // namespace gimpm

@@ -13,6 +13,12 @@ constexpr double asideOfCut = 0.5, reachBesideCut = 0.25;
 /// Lengths by which a cut goes on beyond an end without soil, and with soil [cells].
 constexpr double beyondEnds = 1.5, beyondTip = 0.99;
 
+/// Distance within which the end of a thin body is at another one [cells].
+constexpr double onOther = 0.5;
+
+/// Sides of other cuts, by their numbers, on which a cut parts soil: 1 left, -1 right.
+using Limits = std::vector<std::pair<std::size_t, int>>;
+
 /// Box around positions, wider by a margin.
 template <int Dim> struct Bounds {
 	Vec<Dim> low, high;
@@ -66,10 +72,12 @@ template <int Dim, class Cut> std::vector<Key> nodesCut(const Cut& cut, const Gr
 	return nodes;
 }
 
-/// The layer of a position near nodes of their own, by cuts with a `layer` and the side(position) < 0 that has it.
+/// The layer of a position near nodes of their own, with the bits of cuts with a `layer` of one bit, the side(position)
+/// < 0 that has it, and the `limits` within which they part soil.
 template <int Dim, class Cut> class LayerByCuts {
 public:
-	LayerByCuts(std::vector<Cut> cuts, std::vector<Key> own, const Grid<Dim>& grid)
+	/// `own`: the nodes that are there twice, by cut.
+	LayerByCuts(std::vector<Cut> cuts, std::vector<std::vector<Key>> own, const Grid<Dim>& grid)
 	        : cuts_(std::move(cuts)), own_(std::move(own)), origin_(grid.origin), cellSize_(grid.cellSize), levels_(levelsOf(grid))
 	{
 		for (const Cut& cut : cuts_)
@@ -77,14 +85,16 @@ public:
 	}
 	int operator()(const Vec<Dim>& position) const
 	{
+		int layer = 0;
 		for (std::size_t c = 0; c < cuts_.size(); ++c)
-			if (boxes_[c].contain(position) && isNearOwn(position, cuts_[c].layer) && cuts_[c].side(position) < 0) return cuts_[c].layer;
-		return 0;
+			if (boxes_[c].contain(position) && isNear(own_[c], position) && cuts_[c].side(position) < 0 && isWithin(cuts_[c], position))
+				layer |= cuts_[c].layer;
+		return layer;
 	}
 
 private:
 	/// True if own nodes are as near as domains reach: one cell and half of one.
-	bool isNearOwn(const Vec<Dim>& position, int layer) const
+	bool isNear(const std::vector<Key>& own, const Vec<Dim>& position) const
 	{
 		for (int level = 0; level < levels_; ++level) {
 			const Vec<Dim>   x    = (position - origin_) / (cellSize_ * (1 << level));
@@ -94,18 +104,27 @@ private:
 				Index<Dim> node = low;
 				for (int a = 0, rest = n; a < Dim; rest /= size[a], ++a)
 					node[a] += rest % size[a];
-				if (find(own_, Grid<Dim>::key(node * (1 << level), level, layer)) >= 0) return true;
+				if (find(own, Grid<Dim>::key(node * (1 << level), level)) >= 0) return true;
 			}
 		}
 		return false;
 	}
 
-	std::vector<Cut>         cuts_;
-	std::vector<Bounds<Dim>> boxes_;
-	std::vector<Key>         own_;
-	Vec<Dim>                 origin_;
-	double                   cellSize_;
-	int                      levels_;
+	/// True on the side of all other cuts that a cut does not go beyond.
+	bool isWithin(const Cut& cut, const Vec<Dim>& position) const
+	{
+		return std::all_of(cut.limits.begin(), cut.limits.end(), [&](const auto& limit) {
+			const auto& [other, side] = limit;
+			return !boxes_[other].contain(position) || side * cuts_[other].side(position) >= 0;
+		});
+	}
+
+	std::vector<Cut>              cuts_;
+	std::vector<Bounds<Dim>>      boxes_;
+	std::vector<std::vector<Key>> own_;
+	Vec<Dim>                      origin_;
+	double                        cellSize_;
+	int                           levels_;
 };
 
 /// True if no two nodes are within three cells, of the larger one's level.
@@ -120,32 +139,67 @@ template <int Dim> bool areApart(const std::vector<Key>& nodes, const std::vecto
 	return true;
 }
 
-/// Gives surfaces (or lines) that have soil on both of their sides layers, as long as they are apart, the grid the
-/// nodes there that are there twice, and points their layers; cutOf(surface) makes the cut of each.
-template <int Dim, class Surface, class CutOf> void partByCuts(const std::vector<Surface*>& surfaces, PointCloud<Dim>& cloud, Grid<Dim>& grid, CutOf&& cutOf)
+/// A layer of one bit that no cut near a new one has, and if there is one no other cut; 0: there is none. `mayBeNear`:
+/// false: the new one must be apart from all.
+template <int Dim, class Cut>
+int freeLayer(const std::vector<Key>& nodes, const std::vector<Cut>& cuts, const std::vector<std::vector<Key>>& own, bool mayBeNear)
+{
+	int near = 0, taken = 0;
+	for (std::size_t c = 0; c < cuts.size(); ++c) {
+		taken |= cuts[c].layer;
+		if (!areApart<Dim>(nodes, own[c])) near |= cuts[c].layer;
+	}
+	if (near != 0 && !mayBeNear) return 0;
+	for (const int used : { taken, near })
+		for (int layer = 1; layer <= Grid<Dim>::mostLayer; layer <<= 1)
+			if (!(used & layer)) return layer;
+	return 0;
+}
+
+/// Sides of other cuts beyond which a cut has no soil to part, as it ends at these.
+template <int Dim, class Surface, class Cut> void limitCuts(const std::vector<Surface*>& surfaces, std::vector<Cut>& cuts, const Grid<Dim>& grid)
+{
+	for (std::size_t c = 0; c < cuts.size(); ++c)
+		for (std::size_t other = 0; other < cuts.size(); ++other) {
+			const auto ends = endsOf(*surfaces[c]);
+			const auto isAt = [&](const Vec<Dim>& x) { return isAtMiddle(*surfaces[other], x, onOther * cellSizeAt(grid, x)); };
+			if (c == other || std::none_of(ends.begin(), ends.end(), isAt)) continue;
+			bool isOn[2] = {};
+			for (const Vec<Dim>& x : middlesOf(*surfaces[c]))
+				if (awayFrom(*surfaces[other], x) > onOther * cellSizeAt(grid, x)) isOn[sideFrom(*surfaces[other], x) > 0] = true;
+			if (isOn[0] != isOn[1]) cuts[c].limits.push_back({ other, isOn[1] ? 1 : -1 });
+		}
+}
+
+/// Gives surfaces (or lines) that have soil on both of their sides layers, the grid the nodes there that are there
+/// twice, and points their layers; cutOf(surface) makes the cut of each. `mayBeNear`: also those that are not apart.
+template <int Dim, class Surface, class CutOf>
+void partByCuts(const std::vector<Surface*>& surfaces, PointCloud<Dim>& cloud, Grid<Dim>& grid, bool mayBeNear, CutOf&& cutOf)
 {
 	std::vector<decltype(cutOf(*surfaces.front()))> cuts;
-	std::vector<Key>                                taken, own;
+	std::vector<Surface*>                           parting;
+	std::vector<std::vector<Key>>                   nodesOfCuts;
+	std::vector<Key>                                own;
 	std::vector<LeakyCut<Dim>>                      leaks;
 	for (Surface* surface : surfaces) {
-		if (int(cuts.size()) == Grid<Dim>::mostLayer || !surface->isBetween) continue;
+		if (!surface->isBetween) continue;
 		auto       cut   = cutOf(*surface);
 		const auto nodes = nodesCut<Dim>(cut, grid);
-		if (nodes.empty() || !areApart<Dim>(nodes, taken)) continue;
-		surface->layer = cut.layer = int(cuts.size()) + 1;
+		if (nodes.empty()) continue;
+		surface->layer = cut.layer = freeLayer<Dim>(nodes, cuts, nodesOfCuts, mayBeNear);
+		if (cut.layer == 0) continue;
 		for (const Key node : nodes)
 			own.push_back(Parting<Dim>::in(cut.layer, node));
-		taken.insert(taken.end(), nodes.begin(), nodes.end());
 		for (auto leak : cut.leaks)
 			leak.layer = cut.layer, leaks.push_back(leak);
-		cuts.push_back(std::move(cut));
+		parting.push_back(surface), cuts.push_back(std::move(cut)), nodesOfCuts.push_back(nodes);
 	}
 	grid.parting.reset();
 	cloud.layer.clear();
 	if (cuts.empty()) return;
-	std::sort(own.begin(), own.end());
+	if (mayBeNear) limitCuts<Dim>(parting, cuts, grid);
 	using Layers = LayerByCuts<Dim, typename decltype(cuts)::value_type>;
-	grid.parting = std::make_shared<Parting<Dim>>(own, Layers(std::move(cuts), own, grid), grid.refinement, std::move(leaks));
+	grid.parting = std::make_shared<Parting<Dim>>(std::move(own), Layers(std::move(cuts), std::move(nodesOfCuts), grid), grid.refinement, std::move(leaks));
 	cloud.layer.resize(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p)
 		cloud.layer[p] = grid.parting->layerAt(cloud.position[p]);

@@ -29,6 +29,7 @@ struct LineCut {
 	std::vector<Vec<2>>      tips;
 	std::vector<LeakyCut<2>> leaks; ///< through the line if it leaks, and ahead of its tips
 	int                      layer = 0;
+	Limits                   limits {};
 
 	std::vector<std::array<Vec<2>, 2>> pieces() const
 	{
@@ -50,18 +51,26 @@ bool hasSoil(const Vec<2>& position, double cellSize, const PointCloud<2>& cloud
 	return !areFarFromMaterial<2>({ position }, { reachBesideCut * cellSize }, cloud, grid)[0];
 }
 
+/// True if a position is at another line that may part the soil, off its ends.
+bool isAtOther(const std::vector<PartingLine*>& lines, const PartingLine& line, const Vec<2>& position, double cellSize)
+{
+	return std::any_of(lines.begin(), lines.end(), [&](const PartingLine* other) {
+		return other != &line && other->isBetween && isAtMiddle(*other, position, onOther * cellSize);
+	});
+}
+
 /// Extends a line beyond its open ends: out of the cells around them, so that a cut ends half a cell to one and a half
 /// cells beyond a tip that is bonded, and else at the first line of the grid beyond it.
-LineCut longer(PartingLine& line, const PointCloud<2>& cloud, const Grid<2>& grid)
+LineCut longer(PartingLine& line, const std::vector<PartingLine*>& others, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
-	LineCut cut { line.positions, {}, {}, 0 };
+	LineCut cut { line.positions, {}, {}, 0, {} };
 	for (std::size_t i = 0; line.leakage > 0 && i + 1 < line.positions.size(); ++i)
 		cut.leaks.push_back({ { line.positions[i], line.positions[i + 1] }, 0, line.leakage });
 	if (line.isClosed) return cut;
 	for (const int end : { 1, 0 }) {
 		const Vec<2> vertex = end == 0 ? line.positions.front() : line.positions.back(), outwards = line.outwardsAt(end);
 		const double h      = cellSizeAt(grid, vertex);
-		line.isTip[end]     = hasSoil(vertex + asideOfCut * h * outwards, h, cloud, grid);
+		line.isTip[end]     = hasSoil(vertex + asideOfCut * h * outwards, h, cloud, grid) && !isAtOther(others, line, vertex, h);
 		const Vec<2> beyond = vertex + (line.isTip[end] && !line.isBonded ? beyondTip : beyondEnds) * h * outwards;
 		cut.positions.insert(end == 0 ? cut.positions.begin() : cut.positions.end(), beyond);
 		if (!line.isTip[end]) continue;
@@ -90,7 +99,7 @@ bool isBetween(const PartingLine& line, const PointCloud<2>& cloud, const Grid<2
 
 /// The side of a line of vertices that a position within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond
 /// an end.
-int sideOf(const PartingLine& line, const Vec<2>& position, double reach)
+int sideWithin(const PartingLine& line, const Vec<2>& position, double reach)
 {
 	const FromLine at = fromLine(line.positions, position);
 	if (at.away > reach || at.isBeyond || at.side == 0) return 0;
@@ -98,6 +107,25 @@ int sideOf(const PartingLine& line, const Vec<2>& position, double reach)
 }
 
 } // namespace
+
+double awayFrom(const PartingLine& line, const Vec<2>& position) { return fromLine(line.positions, position).away; }
+bool   isAtMiddle(const PartingLine& line, const Vec<2>& position, double reach)
+{
+	const auto ends = endsOf(line);
+	return awayFrom(line, position) <= reach && std::all_of(ends.begin(), ends.end(), [&](const Vec<2>& end) { return (end - position).norm() > reach; });
+}
+std::vector<Vec<2>> middlesOf(const PartingLine& line)
+{
+	std::vector<Vec<2>> middles;
+	for (std::size_t i = 0; i + 1 < line.positions.size(); ++i)
+		middles.push_back((line.positions[i] + line.positions[i + 1]) / 2);
+	return middles;
+}
+std::vector<Vec<2>> endsOf(const PartingLine& line)
+{
+	return line.isClosed ? std::vector<Vec<2>>() : std::vector<Vec<2>> { line.positions.front(), line.positions.back() };
+}
+double sideFrom(const PartingLine& line, const Vec<2>& position) { return fromLine(line.positions, position).side; }
 
 void lookBetween(const std::vector<PartingLine*>& lines, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
@@ -117,20 +145,21 @@ bool BesideLine::operator()(int p) const
 std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vector<Vec<2>>& positions, double cellSize)
 {
 	std::vector<int> sides(positions.size(), 0);
-	for (const PartingLine* line : lines) {
-		if (line->layer == 0) continue;
-		const Bounds<2> box(line->positions, cellSize);
+	for (int l = 0; l < int(lines.size()); ++l) {
+		if (lines[l]->layer == 0) continue;
+		const Bounds<2> box(lines[l]->positions, cellSize);
 		for (std::size_t p = 0; p < positions.size(); ++p)
 			if (box.contain(positions[p]))
-				if (const int side = sideOf(*line, positions[p], cellSize); side != 0) sides[p] = -side * line->layer;
+				if (const int side = sideWithin(*lines[l], positions[p], cellSize); side != 0) sides[p] = -side * (l + 1);
 	}
 	return sides;
 }
 
-void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid<2>& grid)
+void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid<2>& grid, bool mayBeNear)
 {
+	const std::vector<PartingLine*> none;
 	lookBetween(lines, cloud, grid);
-	partByCuts<2>(lines, cloud, grid, [&](PartingLine& line) { return longer(line, cloud, grid); });
+	partByCuts<2>(lines, cloud, grid, mayBeNear, [&](PartingLine& line) { return longer(line, mayBeNear ? lines : none, cloud, grid); });
 }
 
 } // namespace gimpm

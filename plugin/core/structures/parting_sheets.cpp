@@ -66,6 +66,7 @@ Triangle cornersOf(const PartingSheet& sheet, const std::array<int, 3>& facet)
 struct SheetCut : PartingSheet {
 	std::vector<LeakyCut<3>> leaks; ///< ahead of its edges
 	std::vector<Triangle>    rim;   ///< edges, as triangles without area
+	Limits                   limits {};
 
 	std::vector<Triangle> pieces() const
 	{
@@ -82,6 +83,20 @@ struct SheetCut : PartingSheet {
 	}
 };
 
+/// Another sheet that may part the soil, at which an edge ends by its middle; null: none.
+const PartingSheet* otherAt(const std::vector<PartingSheet*>& sheets, const PartingSheet& sheet, const Vec3& middle, double cellSize)
+{
+	for (const PartingSheet* other : sheets)
+		if (other != &sheet && other->isBetween && isAtMiddle(*other, middle, onOther * cellSize)) return other;
+	return nullptr;
+}
+
+double fromEdge(const Vec3& from, const Vec3& to, const Vec3& position)
+{
+	const Vec3 along = to - from;
+	return (position - from - std::clamp((position - from).dot(along) / along.squaredNorm(), 0., 1.) * along).norm();
+}
+
 /// An edge that bounds a sheet, as its facet runs round it.
 struct BorderEdge {
 	int    from, to;
@@ -93,31 +108,39 @@ struct BorderEdge {
 /// The edge from a vertex to another one of a facet, by what is beyond it at positions no farther apart than the
 /// smallest cells. A cut goes on by the smallest of the cells along an edge where there is soil, so that none ends
 /// farther beyond.
-BorderEdge borderEdge(const PartingSheet& sheet, const std::array<int, 3>& facet, int i, const PointCloud<3>& cloud, const Grid<3>& grid)
+BorderEdge borderEdge(
+        const PartingSheet& sheet, const std::array<int, 3>& facet, int i, const std::vector<PartingSheet*>& others, const PointCloud<3>& cloud,
+        const Grid<3>& grid)
 {
 	const Triangle      x     = cornersOf(sheet, { facet[i], facet[(i + 1) % 3], facet[(i + 2) % 3] });
 	const Vec3          along = x[1] - x[0], outwards = along.cross(normalTo(x)).normalized();
 	const int           parts = int(std::min(1e4, std::ceil(along.norm() / grid.cellSize)));
 	std::vector<Vec3>   positions;
 	std::vector<double> reach, size;
+	std::vector<bool>   areAtOther;
+	const Vec3          middle = (x[0] + x[1]) / 2;
+	const auto*         other  = otherAt(others, sheet, middle, cellSizeAt(grid, middle));
 	for (int part = 0; part < parts; ++part) {
 		const Vec3 on = x[0] + (part + 0.5) / parts * along;
+		areAtOther.push_back(other && awayFrom(*other, on) <= onOther * cellSizeAt(grid, on));
 		size.push_back(cellSizeAt(grid, on));
 		positions.push_back(on + asideOfCut * size.back() * outwards);
 		reach.push_back(reachBesideCut * size.back());
 	}
-	const auto isFar               = areFarFromMaterial<3>(positions, reach, cloud, grid);
-	const bool isTip               = std::any_of(isFar.begin(), isFar.end(), [](std::int64_t is) { return !is; });
+	const auto isFar = areFarFromMaterial<3>(positions, reach, cloud, grid);
+	bool       isTip = false;
+	for (std::size_t part = 0; part < isFar.size(); ++part)
+		isTip = isTip || (!isFar[part] && !areAtOther[part]);
 	const auto [smallest, largest] = std::minmax_element(size.begin(), size.end());
 	return { facet[i], facet[(i + 1) % 3], outwards, isTip ? beyondTip * *smallest : beyondEnds * *largest, isTip };
 }
 
-std::vector<BorderEdge> borderOf(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid<3>& grid)
+std::vector<BorderEdge> borderOf(const PartingSheet& sheet, const std::vector<PartingSheet*>& others, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
 	std::vector<BorderEdge> border;
 	for (std::size_t f = 0; f < sheet.facets.size(); ++f)
 		for (int i = 0; i < 3; ++i)
-			if (sheet.isBorder[f][i]) border.push_back(borderEdge(sheet, sheet.facets[f], i, cloud, grid));
+			if (sheet.isBorder[f][i]) border.push_back(borderEdge(sheet, sheet.facets[f], i, others, cloud, grid));
 	return border;
 }
 
@@ -133,10 +156,10 @@ Vec3 shiftAt(const BorderEdge& one, const BorderEdge& other)
 
 /// Extends a sheet beyond its border: out of the cells around it, and where there is soil beyond it to the nodes next
 /// to it.
-SheetCut extended(const PartingSheet& sheet, const PointCloud<3>& cloud, const Grid<3>& grid)
+SheetCut extended(const PartingSheet& sheet, const std::vector<PartingSheet*>& others, const PointCloud<3>& cloud, const Grid<3>& grid)
 {
 	SheetCut                        cut { sheet, {}, {} };
-	const auto                      border = borderOf(sheet, cloud, grid);
+	const auto                      border = borderOf(sheet, others, cloud, grid);
 	std::map<int, std::vector<int>> at;
 	for (std::size_t e = 0; e < border.size(); ++e)
 		at[border[e].from].push_back(int(e)), at[border[e].to].push_back(int(e));
@@ -235,6 +258,49 @@ void PartingSheet::prepare()
 	}
 }
 
+double awayFrom(const PartingSheet& sheet, const Vec3& position)
+{
+	double least = std::numeric_limits<double>::infinity();
+	for (std::size_t f = 0; f < sheet.facets.size(); ++f) {
+		const auto& box = sheet.boxes[f];
+		if ((box.first - position).cwiseMax(position - box.second).cwiseMax(0.).norm() > least) continue;
+		const auto x       = cornersOf(sheet, sheet.facets[f]);
+		const Vec3 weights = closestWeights(x, position);
+		least              = std::min(least, (position - weights[0] * x[0] - weights[1] * x[1] - weights[2] * x[2]).norm());
+	}
+	return least;
+}
+
+bool isAtMiddle(const PartingSheet& sheet, const Vec3& position, double reach)
+{
+	if (awayFrom(sheet, position) > reach) return false;
+	for (std::size_t f = 0; f < sheet.facets.size(); ++f)
+		for (int i = 0; i < 3; ++i)
+			if (sheet.isBorder[f][i]
+			    && fromEdge(sheet.positions[sheet.facets[f][i]], sheet.positions[sheet.facets[f][(i + 1) % 3]], position) <= reach)
+				return false;
+	return true;
+}
+
+std::vector<Vec3> middlesOf(const PartingSheet& sheet)
+{
+	std::vector<Vec3> middles;
+	for (const auto& facet : sheet.facets)
+		middles.push_back((sheet.positions[facet[0]] + sheet.positions[facet[1]] + sheet.positions[facet[2]]) / 3);
+	return middles;
+}
+
+std::vector<Vec3> endsOf(const PartingSheet& sheet)
+{
+	std::vector<Vec3> middles;
+	for (std::size_t f = 0; f < sheet.facets.size(); ++f)
+		for (int i = 0; i < 3; ++i)
+			if (sheet.isBorder[f][i]) middles.push_back((sheet.positions[sheet.facets[f][i]] + sheet.positions[sheet.facets[f][(i + 1) % 3]]) / 2);
+	return middles;
+}
+
+double sideFrom(const PartingSheet& sheet, const Vec3& position) { return sideOf(sheet, position); }
+
 double sideOf(const PartingSheet& sheet, const Vec3& position)
 {
 	double least = std::numeric_limits<double>::infinity(), side = 0;
@@ -260,10 +326,11 @@ void lookBetween(const std::vector<PartingSheet*>& sheets, const PointCloud<3>& 
 		sheet->layer = 0, sheet->isBetween = isBetween(*sheet, cloud, grid);
 }
 
-void partSoil(const std::vector<PartingSheet*>& sheets, PointCloud<3>& cloud, Grid<3>& grid)
+void partSoil(const std::vector<PartingSheet*>& sheets, PointCloud<3>& cloud, Grid<3>& grid, bool mayBeNear)
 {
+	const std::vector<PartingSheet*> none;
 	lookBetween(sheets, cloud, grid);
-	partByCuts<3>(sheets, cloud, grid, [&](const PartingSheet& sheet) { return extended(sheet, cloud, grid); });
+	partByCuts<3>(sheets, cloud, grid, mayBeNear, [&](const PartingSheet& sheet) { return extended(sheet, mayBeNear ? sheets : none, cloud, grid); });
 }
 
 } // namespace gimpm

@@ -2,6 +2,7 @@
 // Thin rigid bodies as lines that part the soil.
 #include "core/structures/rigid_lines.hpp"
 #include "scenes.hpp"
+#include <set>
 
 namespace gimpm::testRigidLines {
 namespace {
@@ -67,6 +68,51 @@ namespace {
 			EXPECT_TRUE(isOwn(last) && isOwn(4)) << tip;
 			EXPECT_FALSE(isOwn(last - 1)) << tip;
 		}
+	}
+
+	/// Layers of points beside thin bodies that part soil all the way.
+	std::vector<int> layersAt(const std::vector<RigidBody<2>>& bodies, const std::vector<Vec<2>>& positions)
+	{
+		Grid<2>                   grid  = equal(0.5);
+		PointCloud<2>             cloud = block<2>(grid, { 8, 8 }, 2);
+		auto                      lines = linesOf(bodies, grid);
+		std::vector<PartingLine*> those;
+		for (auto& line : lines)
+			those.push_back(&line);
+		partSoil(those, cloud, grid, true);
+		std::vector<int> layers;
+		for (const Vec<2>& x : positions)
+			layers.push_back(grid.parting->layerAt(x));
+		return layers;
+	}
+
+	/// Between two sheets half a cell to two cells apart, and beyond each, soil has a layer of its own; nodes that one
+	/// of them alone cuts are there twice, others up to three times.
+	TEST(RigidLines, PartSoilOnBothSidesOfTwoNearSheets)
+	{
+		for (const double gap : { 0.25, 0.5, 1., 1.5 }) {
+			const auto layers = layersAt(
+			        { sheet({ 1.6, -1 }, { 1.6, 5 }), sheet({ 1.6 + gap, -1 }, { 1.6 + gap, 5 }) },
+			        { { 1.5, 2 }, { 1.6 + gap / 2, 2 }, { 1.7 + gap, 2 } });
+			const std::set<int> unlike(layers.begin(), layers.end());
+			EXPECT_EQ(unlike.size(), 3u) << gap;
+			EXPECT_EQ(layers[0] & layers[2], 0) << gap;
+		}
+	}
+
+	/// Four quarters around a cross have four layers; beyond a sheet at which another one ends soil is whole.
+	TEST(RigidLines, PartSoilAtJunctions)
+	{
+		const std::vector<Vec<2>> quarters { { 1.8, 1.8 }, { 2.2, 1.8 }, { 1.8, 2.2 }, { 2.2, 2.2 } };
+		const auto                cross = layersAt({ sheet({ -1, 2 }, { 5, 2 }), sheet({ 2, -1 }, { 2, 5 }) }, quarters);
+		EXPECT_EQ(std::set<int>(cross.begin(), cross.end()).size(), 4u);
+		for (const double end : { 1.9, 2., 2.1 })
+			for (const bool isUpwards : { false, true }) {
+				const Vec<2> from = isUpwards ? Vec<2>(2, -1) : Vec<2>(2, end), to = isUpwards ? Vec<2>(2, end) : Vec<2>(2, -1);
+				const auto   tee = layersAt({ sheet({ -1, 2 }, { 5, 2 }), sheet(from, to) }, quarters);
+				EXPECT_EQ(std::set<int>(tee.begin(), tee.end()).size(), 3u) << end;
+				EXPECT_EQ(tee[2], tee[3]) << end;
+			}
 	}
 
 } // namespace

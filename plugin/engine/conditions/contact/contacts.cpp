@@ -285,7 +285,7 @@ template <int Dim> template <class Surface> void Contacts<Dim>::partBy(vector<Su
 	vector<std::conditional_t<Dim == 2, gimpm::PartingLine, gimpm::PartingSheet>*> those;
 	for (auto& surface : surfaces)
 		those.push_back(&surface);
-	if (inItsWay.empty()) gimpm::partSoil(those, cloud, grid);
+	if (inItsWay.empty()) gimpm::partSoil(those, cloud, grid, true);
 	else
 		gimpm::lookBetween(those, cloud, grid);
 	for (const auto& surface : surfaces)

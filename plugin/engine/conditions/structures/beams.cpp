@@ -272,7 +272,7 @@ namespace {
 		vector<size_t> crossed(lines.size(), 0);
 		for (size_t p = 0; p < before.size(); ++p)
 			for (size_t b = 0; b < lines.size() && before[p] != 0; ++b)
-				crossed[b] += std::abs(before[p]) == lines[b]->layer && after[p] == -before[p];
+				crossed[b] += std::abs(before[p]) == int(b) + 1 && after[p] == -before[p];
 		return crossed;
 	}
 }
