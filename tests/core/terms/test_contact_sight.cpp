@@ -42,6 +42,36 @@ namespace {
 		}
 	}
 
+	/// Under a ball of 0.8 h that lies on even soil, or is a little above or in it: oblique contact points see the soil
+	/// where their normal goes through its surface, not corners of domains beside that.
+	TYPED_TEST(ContactSightOf, ObliquePointsOfASmallBallSeeEvenSoilWhereItIs)
+	{
+		constexpr int Dim    = TypeParam::value;
+		const double  radius = 0.8 * h;
+		int           seen   = 0;
+		for (const double above : { 0., 0.05 * h, -0.1 * h })
+			for (const double beside : { 0., 0.13 * h }) {
+				auto     domains = soil<Dim>(0);
+				Vec<Dim> centre  = beside * Vec<Dim>::Unit(0) - (radius + above) * Vec<Dim>::Unit(1);
+				for (auto& domain : domains)
+					domain.outward = (domain.centre - centre).normalized();
+				const SoilNear<Dim> near(domains, h);
+				for (int i = 0; i < 32 * 32; ++i) {
+					const double a = (i % 32 + 0.5) / 32 * 2 * M_PI, b = (i / 32 + 0.5) / 32 * M_PI;
+					Vec<Dim>     normal = Vec<Dim>::Zero();
+					normal[0] = std::cos(a), normal[1] = std::sin(a);
+					if constexpr (Dim == 3) normal *= std::sin(b), normal[2] = std::cos(b);
+					if (normal[1] < 0.3) continue;
+					const Vec<Dim> on    = centre + radius * normal;
+					const auto     sight = near.from(on, normal, reach);
+					if (!sight || sight->areaFraction <= 1e-9) continue;
+					EXPECT_NEAR(sight->gap, -on[1] / normal[1], 0.05 * h) << normal.transpose();
+					++seen;
+				}
+			}
+		EXPECT_GT(seen, 100);
+	}
+
 	TYPED_TEST(ContactSightOf, TheGapIsThatOfTheClosestDomainInFront)
 	{
 		constexpr int  Dim = TypeParam::value;

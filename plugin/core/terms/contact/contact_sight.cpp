@@ -24,6 +24,15 @@ template <int Dim> double entry(const Vec<Dim>& position, const Vec<Dim>& along,
 	return first < last ? first : infinite;
 }
 
+/// Distance at which a line is beside a domain that it misses by less than this: in the middle of its way through a
+/// wider one; infinite if it passes by farther away.
+template <int Dim> double beside(const Vec<Dim>& position, const Vec<Dim>& along, SoilDomain<Dim> domain, double margin)
+{
+	domain.half.array() += margin;
+	const double first = entry(position, along, domain);
+	return first == infinite ? infinite : (first - entry(position, Vec<Dim>(-along), domain)) / 2;
+}
+
 } // namespace
 
 template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains, double cellSize) : domains_(std::move(domains)), cellSize_(cellSize)
@@ -66,20 +75,26 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell.
+/// then those count which it misses by a quarter of a cell. A domain that it enters counts if it is not far behind one
+/// of those, where the line is beside them: corners of soil oblique to the line lie beside it, not in front.
 template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
-	const double   beside = 0.25 * cellSize_;
-	double         hit = infinite, near = infinite;
-	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = position + reach * normal;
+	const double   aside = 0.25 * cellSize_;
+	double         hit = infinite, near = infinite, missed = infinite;
+	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + aside), end = position + reach * normal;
 	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!d.isInFrontOf(normal)) return;
 		const double straight = entry(position, normal, d);
-		const double here     = d.isPassed(position, normal, beside) ? infinite : (d.centre - position).dot(normal) - normal.cwiseAbs().dot(d.half);
+		const double here     = d.isPassed(position, normal, aside) ? infinite : (d.centre - position).dot(normal) - normal.cwiseAbs().dot(d.half);
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});
-	return hit < infinite && hit < near + 2 * beside ? hit : near;
+	if (hit == infinite || hit < near + 2 * aside) return hit < infinite ? hit : near;
+	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
+		if (!d.isInFrontOf(normal) || entry(position, normal, d) < infinite || (hides && hides(d.centre))) return;
+		missed = std::min(missed, beside(position, normal, d, aside));
+	});
+	return hit < missed + 2 * aside ? hit : near;
 }
 
 /// Finds the soil in front of a contact point. Its amount is a volume, which does not jump: that in a box in front of
