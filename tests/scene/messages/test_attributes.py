@@ -245,7 +245,7 @@ outOfRange = {
         'MpmContact.friction': ['-0.1', '30.', '1.5708'],
         'MpmContact.adhesion': ['-1.'],
         'MpmContact.stiffness': ['0.', '-1.'],
-        'MpmBodyContact.between': ['["low"]', '["low", "low"]', '["low", ""]', '["low", "up", "low"]'],
+        'MpmBodyContact.between': ['["low"]', '["low", ""]', '["low", "up", "low"]'],
         'MpmBodyContact.friction': ['-0.1', '30.', '1.5708'],
         'MpmBodyContact.adhesion': ['-1.'],
         'MpmBodyContact.permittivity': ['-1.'],
