@@ -49,21 +49,32 @@ template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, dou
 	return record->number % (std::int64_t(1) << contactPointBits) >= firstFineNumber;
 }
 
+/// Number of the face of a contact point, by the axis of the body that its normal is closest to.
+template <int Dim> int faceOf(const RigidBody<Dim>& body, const ContactPoint<Dim>& point)
+{
+	const Vec<Dim> own = (body.free < 0 ? body.end : body.begin).rotation.transpose() * point.normal;
+	int            axis;
+	own.cwiseAbs().maxCoeff(&axis);
+	return 1 + 2 * axis + (own[axis] > 0);
+}
+
 /// Soil that is pressed all over a ball touches it in some contact points of a cell and lies off it by a part of the
 /// chord in others. The grid knows what presses on all of them together, so that is what adhesion goes by: that of the
 /// last step, over the area. Where friction has no other bound than pressure, all of it is the same with or without.
+/// So it is with each side of a body that parts soil, whose domains are a staircase along it.
 template <int Dim> void spreadPressure(const ContactSystem<Dim>& system, const Grid<Dim>& grid, std::vector<ContactPoint<Dim>>& points)
 {
 	struct Pressed {
 		double force = 0, area = 0;
 	};
-	std::map<std::array<int, Dim + 1>, Pressed>                cells;
+	std::map<std::array<int, Dim + 2>, Pressed>                cells;
 	std::vector<std::pair<ContactPoint<Dim>*, const Pressed*>> meant;
 	for (ContactPoint<Dim>& point : points) {
-		if (system.bodies[point.body].shape.kind != RigidKind::ball || !(point.law.frictionCoefficient > 0) || !std::isfinite(point.law.cap)) continue;
-		std::array<int, Dim + 1> key { point.body };
+		const auto& body = system.bodies[point.body];
+		if (!(body.shape.kind == RigidKind::ball || body.parts) || !(point.law.frictionCoefficient > 0) || !std::isfinite(point.law.cap)) continue;
+		std::array<int, Dim + 2> key { point.body, body.parts ? faceOf(body, point) : 0 };
 		for (int a = 0; a < Dim; ++a)
-			key[a + 1] = int(std::floor((point.soil[a] - grid.origin[a]) / grid.cellSize));
+			key[a + 2] = int(std::floor((point.soil[a] - grid.origin[a]) / grid.cellSize));
 		Pressed& cell = cells[key];
 		cell.area += point.area;
 		if (const auto* r = system.recordOf(point)) cell.force += r->normalForce;
@@ -190,18 +201,19 @@ private:
 		if (!sight || others.hides(onBody, normal)) return;
 		ContactPoint<Dim> made;
 		made.body = number_, made.number = point.number | std::int64_t(layer) << contactPointBits;
-		const auto* record = system_.recordOf(made);
-		made.gap           = std::max(0., isWithinSoil(onBody, normal, sight->gap, soil) ? (record ? record->gap : 0) : sight->gap);
-		made.soil          = onBody + made.gap * normal;
-		made.normal        = (body_.free < 0 ? body_.end : body_.begin).rotation * point.normal;
-		made.areaFraction  = sight->areaFraction;
-		const bool touched = record && record->touches;
+		const auto* record   = system_.recordOf(made);
+		const bool  isWithin = isWithinSoil(onBody, normal, sight->gap, soil);
+		made.gap             = std::max(0., isWithin ? (record ? record->gap : 0) : sight->gap);
+		made.soil            = onBody + (isWithin ? sight->gap : made.gap) * normal;
+		made.normal          = (body_.free < 0 ? body_.end : body_.begin).rotation * point.normal;
+		made.areaFraction    = sight->areaFraction;
+		const bool touched   = record && record->touches;
 		// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell
 		// from being there in full to not being there.
 		if (touched) made.areaFraction = std::max(made.areaFraction, record->areaFraction - 4 * record->travel / h_);
 		if (made.areaFraction <= noArea) return;
 		// Pressed soil begins inside of the body: at its face even pressure would not balance even stress.
-		if (touched && record->gap < 0) made.soil = onBody + record->gap * normal;
+		if (touched && record->gap < 0 && !isWithin) made.soil = onBody + record->gap * normal;
 		if (!place(made, point, layerBefore(step_.grid, onBody, normal, layer))) return;
 		made.area            = made.areaFraction * point.area * (isRing ? 2 * M_PI * onBody[0] : 1);
 		made.young           = sight->young;
@@ -216,12 +228,14 @@ private:
 	bool partsSoil() const { return body_.parts && body_.shape.kind == RigidKind::sheet; }
 
 	/// True where a sheet parts soil that is one body: domains through which it goes count on one of its sides, and
-	/// leave a gap on the other one, which is none. What opens then is known from its motion.
+	/// leave a gap on the other one, which is none. What opens then is known from its motion. Pressure acts where the
+	/// domains of its side begin: cells beyond have nothing that bears it.
 	bool isWithinSoil(const Vec<Dim>& onBody, const Vec<Dim>& normal, double gap, const SoilNear<Dim>& soil) const
 	{
-		if (!partsSoil() || gap <= 0) return false;
-		const auto behind = soil.from(onBody, -normal, 0);
-		return behind && gap + behind->gap <= deepestInBody * cellSizeAt(step_.grid, onBody);
+		if (!partsSoil()) return false;
+		const double h      = cellSizeAt(step_.grid, onBody);
+		const auto   behind = soil.from(onBody, -normal, h / 2);
+		return behind && gap + behind->gap <= deepestInBody * h;
 	}
 
 	/// Attaches it to the soil. False behind a wall, where there is none.
