@@ -152,6 +152,31 @@ print(json.dumps(found))
 	assert all(abs(part - 1) < 0.03 for pair in found for part in pair), found
 
 
+def test_adhesion_and_pressure_of_a_sheet_at_any_angle(yade):
+	"""A sheet of eight cells in clay under even pressure, off the lines of the grid, upright, level and oblique: as it slides each side has the whole cap of the shear stress within 1 %, and the pressure within 4 %; before, points of it were open."""
+	found = yade(scene + '''
+found = []
+for angle in np.radians([0, 10, 20, 30, 45, 60, 90]):
+	solver = ground(low=(-3, -3), high=(3, 3), K0=1, friction=1.2)
+	solver.gravity, solver.gravityCurve = (0, 0, 0), []
+	mpm.assign(stress=np.repeat(-5e4 * np.eye(3)[None], len(O.bodies), axis=0))
+	solver.boundaries = [MpmBoundary(max=(-3, inf, inf), fix='xy'), MpmBoundary(min=(3, -inf, -inf), fix='xy'), MpmBoundary(max=(inf, -3, inf), fix='xy'), MpmBoundary(min=(-inf, 3, -inf), fix='xy')]
+	along, middle = np.array([np.cos(angle), np.sin(angle)]), np.array([0.03, 0.02])
+	ends = middle - along, middle + along
+	wall = O.bodies[O.bodies.append(utils.facet([(*ends[0], 0), (*ends[1], 0), (*ends[0], 1)], material='rigid', fixed=True))]
+	solver.contacts = [MpmContact(adhesion=2e3)]
+	O.run(1, wait=True)
+	wall.state.vel = (*(-1e-3 * along), 0)
+	O.run(3, wait=True)
+	force = mpm.contactForces(solver)[1][:, :2]
+	normal = force @ (-along[1], along[0])
+	found.append([[-(force[side * normal > 0] @ along).sum() / 4e3, side * normal[side * normal > 0].sum() / 1e5] for side in (1, -1)])
+print(json.dumps(found))
+''').result
+	adhesion, pressure = np.moveaxis(found, -1, 0)
+	assert (abs(adhesion - 1) < 0.01).all() and (abs(pressure - 1) < 0.04).all(), found
+
+
 def test_friction_of_a_sheet_goes_by_the_beta_method(yade):
 	"""K sigma_v tan(delta) on each side, in the plane and around an axis, on cells of one and of two sizes, within 3 %: through all of the ground, whose sides bear nothing of the weight (Poisson's ratio 0)."""
 	found = yade(scene + '''
@@ -271,10 +296,10 @@ print(json.dumps([found[:2], found[2]]))
 
 
 def test_friction_of_a_skirt_of_facets_in_3d(yade):
-	"""K sigma_v tan(delta) on the facets of a quarter of a skirt, oblique to the grid with four cells over its radius: inside within 3 %, outside, where the surface is convex, within 12 %; it stays so while the skirt slides."""
+	"""K sigma_v tan(delta) on the facets of a quarter of a skirt, oblique to the grid with four cells over its radius, on a smooth base: inside and outside within 3 % each; it stays so while the skirt slides."""
 	found = yade(in3D + '''
 solver = block(young=1e8, poisson=0, friction=np.radians(20), low=(0, 0, -1), high=(2, 2, 1))
-solver.boundaries = [*solver.boundaries[:4], MpmBoundary(max=(inf, inf, -1), fix='xyz')]
+solver.boundaries = [*solver.boundaries[:4], MpmBoundary(max=(inf, inf, -1), fix='z')]
 solver.gravity, solver.gravityCurve = (0, 0, -10), [(0, 1)]
 mpm.geostatic(K0=0.5)
 at = lambda i, z: (np.cos(i * np.pi / 16), np.sin(i * np.pi / 16), z)
@@ -291,8 +316,7 @@ for _ in range(3):
 	found.append([-force[which, 2].sum() / shaft for which in (~isOutside, isOutside)])
 print(json.dumps(found))
 ''').result
-	inside, outside = np.array(found).T
-	assert (abs(inside - 1) < 0.03).all() and (abs(outside - 1) < 0.12).all(), found
+	assert (abs(np.array(found) - 1) < 0.03).all(), found
 
 
 vane = '''
@@ -362,11 +386,11 @@ print(json.dumps([turn(2, 4, 12), turn(3, 2, 4, height=0.25)]))
 def test_a_wall_of_facets_that_turns_in_3d_as_in_the_plane(yade):
 	"""A slab of two cells with a smooth wall that turns about its toe: active and passive force as in the plane within 3 %."""
 	plane, space = yade(in3D + '''
-def turned(dim, width=0.5, turn=-1e-3):
+def turned(dim, width=0.25, turn=-1e-3):
 	O.reset()
 	O.materials.append(MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=100, frictionAngle=np.radians(30), dilationAngle=np.radians(30), label='sand'))
 	O.materials.append(FrictMat(frictionAngle=0, density=2600, label='rigid'))
-	grid = MpmGrid(cellSize=0.25, dim=dim)
+	grid = MpmGrid(cellSize=0.125, dim=dim)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((-4, -1, 0 if dim == 3 else -1), (4, 1.5, width)), grid, 2, 'sand'))
 	held = [MpmBoundary(max=(-4, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -1, inf), fix='xyz'[:dim])]
 	if dim == 3: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, width), fix='z')]
