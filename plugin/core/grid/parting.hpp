@@ -17,16 +17,16 @@ template <int Dim> struct LeakyCut {
 	double                    leakage; ///< volume that passes by area and time, over the difference of the pressures [m3/(N s)]
 };
 
-/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer), a number with one bit. Those
-/// whose cells the line cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The
-/// others are tied to the nodes of layer 0 in their places, and a cell without functions of such nodes is the one of
-/// layer 0: so soil is one body around the ends of the line. Beside several lines a layer has the bits of all of them,
-/// and a node, or a cell, is the one of those bits of the lines that cut it. In a refined grid hanging nodes are tied
-/// within their layer first.
+/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer), a number with one bit.
+/// Those whose cells the line cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004).
+/// The others are tied to the nodes of layer 0 in their places, and a cell without functions of such nodes is the one
+/// of layer 0: so soil is one body around the ends of the line. Beside several lines a layer has the bits of all of
+/// them, and a node, or a cell, is the one of those bits of the lines that cut it. In a refined grid hanging nodes are
+/// tied within their layer first.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes that lines cut, each in the layer of a line, none of them hanging; and the layer of a point
-	/// by its position. Null: the cells are equal.
+	/// Keys of the nodes that lines cut, each in the layer of a line, none of them hanging; and the layer of a
+	/// point by its position. Null: the cells are equal.
 	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement = {},
 	        std::vector<LeakyCut<Dim>> leaks = {});
 

@@ -37,17 +37,18 @@ struct PartingLine {
 };
 
 /// Gives points to the right of lines, near these, layers of their own, the grid the nodes there that are there twice,
-/// and lines the layer of the soil to their right, a number with one bit; 0 where there is soil on one side only, as many
-/// lines nearby as there are bits, or, unless lines may be near each other, another one within three cells that parts
-/// it. An end that has soil beyond it, and is not at another line, is a tip, around which soil is whole: as of the line
-/// of the grid that is nearest to it.
+/// and lines the layer of the soil to their right, a number with one bit; 0 where there is soil on one side only, as
+/// many lines nearby as there are bits, or, unless lines may be near each other, another one within three cells that
+/// parts it. An end that has soil beyond it, and is not at another line, is a tip, around which soil is whole: as of
+/// the line of the grid that is nearest to it.
 void partSoil(const std::vector<PartingLine*>&, PointCloud<2>&, Grid<2>&, bool mayBeNear = false);
 
 /// Distance of a position from a line [m]; the side of it that it is on, > 0 left, < 0 right.
 double awayFrom(const PartingLine&, const Vec<2>& position);
 double sideFrom(const PartingLine&, const Vec<2>& position);
 
-/// Middles of its pieces, and ends of a line that is not closed; true if a position is within a reach of a line, and not of its ends.
+/// Middles of its pieces, and ends of a line that is not closed; true if a position is within a reach of a line, and
+/// not of its ends.
 std::vector<Vec<2>> middlesOf(const PartingLine&);
 std::vector<Vec<2>> endsOf(const PartingLine&);
 bool                isAtMiddle(const PartingLine&, const Vec<2>& position, double reach);
@@ -70,7 +71,8 @@ private:
 };
 
 /// Sides of positions within a cell of a line that parts the soil, but not beyond its ends: the line's number, counted
-/// from 1, to its right, less than 0 to its left; else 0. A point that changes the sign in a step has gone through the line.
+/// from 1, to its right, less than 0 to its left; else 0. A point that changes the sign in a step has gone through the
+/// line.
 std::vector<int> sidesOf(const std::vector<PartingLine*>&, const std::vector<Vec<2>>& positions, double cellSize);
 
 } // namespace gimpm

@@ -32,15 +32,16 @@ double sideOf(const PartingSheet&, const Vec3& position);
 
 /// Gives, as partSoil() of lines does, points to the right of sheets, near these, layers of their own, the grid the
 /// nodes there that are there twice, and sheets the layer of the soil to their right; 0 where there is soil on one side
-/// only. An edge that has soil beyond it, and is not at another sheet, is the edge of a cut, around which soil is whole:
-/// as of the nodes next to it.
+/// only. An edge that has soil beyond it, and is not at another sheet, is the edge of a cut, around which soil is
+/// whole: as of the nodes next to it.
 void partSoil(const std::vector<PartingSheet*>&, PointCloud<3>&, Grid<3>&, bool mayBeNear = false);
 
 /// Distance of a position from a sheet [m]; the side of it that it is on, as sideOf().
 double awayFrom(const PartingSheet&, const Vec3& position);
 double sideFrom(const PartingSheet&, const Vec3& position);
 
-/// Middles of the facets and of the edges of a sheet; true if a position is within a reach of a sheet, and not of its edges.
+/// Middles of the facets and of the edges of a sheet; true if a position is within a reach of a sheet, and not of its
+/// edges.
 std::vector<Vec3> middlesOf(const PartingSheet&);
 std::vector<Vec3> endsOf(const PartingSheet&);
 bool              isAtMiddle(const PartingSheet&, const Vec3& position, double reach);

@@ -65,6 +65,11 @@ public:
 	// condition that such contact does not admit, empty if there is none.
 	virtual bool   partsBodies() const { return false; }
 	virtual string needsOneBody(const string& /*name*/) const { return ""; }
+	// True if it is a contact between two bodies of points with these names; with the same name, between its parts.
+	virtual bool isBetween(const string& /*one*/, const string& /*other*/) const { return false; }
+	// Before a step, where it is between parts of one body: those that have come off it get bodies of their own. A
+	// doubt, a sentence; empty if there is none.
+	virtual string divideBodies(const Analysis&, const vector<MaterialPoint>&) const { return ""; }
 	// The body of points that it acts on alone, which has nodes of its own then; empty: all.
 	virtual string onlyOn() const { return ""; }
 	// True if it acts by rates, so that O.time counts seconds.

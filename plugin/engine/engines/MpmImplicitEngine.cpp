@@ -212,11 +212,12 @@ void MpmImplicitEngine::lookAtBodies()
 {
 	const ValueLock lock;
 	if (!grid || grid->bodies.empty()) return;
-	const bool tears = mayTear(*this), sticks = sticking.mayBegin(*this);
-	if (!tears && !sticks) return;
+	const bool sticks = sticking.mayBegin(*this);
+	if (!bodiesMeet() && !sticks) return;
 	requireRunnable(*this);
 	updateMaterialPoints(points, *scene, mask);
-	if (tears) warn(plausibility.once("parts", tear(*this, points)));
+	for (const Listed& listed : conditions())
+		warn(plausibility.once("parts", listed.condition->divideBodies(*this, points)));
 	if (sticks) warn(sticking.warning(*this, points));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "engine/analysis/analysis.hpp"
-#include "engine/conditions/bodies/tearing.hpp"
 #include "engine/conditions/load_curves.hpp"
 #include "engine/engines/PeriodicCounters.hpp"
 #include "engine/engines/job.hpp"
@@ -10,6 +9,7 @@
 #include "engine/grid/newPoints.hpp"
 #include "engine/messages/ProgressLine.hpp"
 #include "engine/messages/plausibility.hpp"
+#include "engine/messages/sticking.hpp"
 #include "engine/output/plotData.hpp"
 #include "engine/output/report.hpp"
 #include "engine/parallel/distribution.hpp"

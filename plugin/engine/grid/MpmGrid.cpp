@@ -104,6 +104,8 @@ int MpmGrid::bodyNamed(const string& name) const
 	return -1;
 }
 
+const string& MpmGrid::nameOfWhole(int body) const { return bodies[body]->partOf.empty() ? bodies[body]->name : bodies[body]->partOf; }
+
 template <int Dim> void MpmGrid::refine(gimpm::Grid<Dim>& grid) const
 {
 	vector<gimpm::RefinedBox<Dim>> boxes;

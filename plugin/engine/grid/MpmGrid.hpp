@@ -59,6 +59,9 @@ public:
 	// The place of a body of this name among the bodies, or -1.
 	int bodyNamed(const string& name) const;
 
+	// Name by which a script knows a body: that of the whole of which it is a part.
+	const string& nameOfWhole(int body) const;
+
 	// Size [m] of the smallest cells that there may be.
 	Real smallestCell() const;
 

@@ -51,7 +51,8 @@ namespace {
 		}
 	}
 
-	/// The outline of a block is closed, has its area but for rounded edges, and exact faces; normals lead outwards.
+	/// The outline of a block is closed, has its area but for rounded edges, and exact faces; normals lead
+	/// outwards.
 	TYPED_TEST(PartsOfBody, OutlineGoesAroundABlock)
 	{
 		constexpr int  Dim     = TypeParam::value;

@@ -86,8 +86,7 @@ namespace {
 		return layers;
 	}
 
-	/// Between two sheets half a cell to two cells apart, and beyond each, soil has a layer of its own; nodes that one
-	/// of them alone cuts are there twice, others up to three times.
+	/// Between two sheets half a cell to three cells apart, and beyond each, soil has a layer of its own.
 	TEST(RigidLines, PartSoilOnBothSidesOfTwoNearSheets)
 	{
 		for (const double gap : { 0.25, 0.5, 1., 1.5 }) {

@@ -42,8 +42,8 @@ namespace {
 		}
 	}
 
-	/// Under a ball of 0.8 h that lies on even soil, or is a little above or in it: oblique contact points see the soil
-	/// where their normal goes through its surface, not corners of domains beside that.
+	/// Under a ball of 0.8 h that lies on even soil, or is a little above or in it: oblique contact points see the
+	/// soil where their normal goes through its surface, not corners of domains beside that.
 	TYPED_TEST(ContactSightOf, ObliquePointsOfASmallBallSeeEvenSoilWhereItIs)
 	{
 		constexpr int Dim    = TypeParam::value;
@@ -55,7 +55,7 @@ namespace {
 				Vec<Dim> centre  = beside * Vec<Dim>::Unit(0) - (radius + above) * Vec<Dim>::Unit(1);
 				for (auto& domain : domains)
 					domain.outward = (domain.centre - centre).normalized();
-				const SoilNear<Dim> near(domains, h);
+				const SoilNear<Dim> near(domains, h, true);
 				for (int i = 0; i < 32 * 32; ++i) {
 					const double a = (i % 32 + 0.5) / 32 * 2 * M_PI, b = (i / 32 + 0.5) / 32 * M_PI;
 					Vec<Dim>     normal = Vec<Dim>::Zero();

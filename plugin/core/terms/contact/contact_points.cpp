@@ -16,6 +16,9 @@ namespace {
 /// that are sheared to and fro by a plate, friction 0.3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
 constexpr double slipSoftness = 20;
 
+/// Diameter of a ball below which its contact points see soil along their normals [cells].
+constexpr double smallBall = 2;
+
 /// Area fraction of soil that just does not reach a contact point, but for round-off: it must not decide which contact
 /// points have touched.
 constexpr double noArea = 1e-9;
@@ -184,7 +187,8 @@ private:
 			const Proximity<Dim> closest = body_.proximity(body_.begin, near->centre(), near->side);
 			domains.push_back({ near->centre(), near->half(), near->young, closest.normal, closest.gap });
 		}
-		const SoilNear<Dim> soil(std::move(domains), h_);
+		const bool          isSmallBall = body_.shape.kind == RigidKind::ball && body_.thickness() < smallBall * h_;
+		const SoilNear<Dim> soil(std::move(domains), h_, isSmallBall);
 		const auto [low, high]   = soil.bounds();
 		const Vec<Dim>    margin = Vec<Dim>::Constant(h_ + searchReach(body_, step_.grid));
 		const Hiding<Dim> others(system_.bodies, number_, h_, contactTolerance(h_));
@@ -228,8 +232,8 @@ private:
 	bool partsSoil() const { return body_.parts && body_.shape.kind == RigidKind::sheet; }
 
 	/// True where a sheet parts soil that is one body: domains through which it goes count on one of its sides, and
-	/// leave a gap on the other one, which is none. What opens then is known from its motion. Pressure acts where the
-	/// domains of its side begin: cells beyond have nothing that bears it.
+	/// leave a gap on the other one, which is none. What opens then is known from its motion. Pressure acts where
+	/// the domains of its side begin: cells beyond have nothing that bears it.
 	bool isWithinSoil(const Vec<Dim>& onBody, const Vec<Dim>& normal, double gap, const SoilNear<Dim>& soil) const
 	{
 		if (!partsSoil()) return false;

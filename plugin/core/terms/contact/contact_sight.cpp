@@ -35,7 +35,9 @@ template <int Dim> double beside(const Vec<Dim>& position, const Vec<Dim>& along
 
 } // namespace
 
-template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains, double cellSize) : domains_(std::move(domains)), cellSize_(cellSize)
+template <int Dim>
+SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains, double cellSize, bool isSmall)
+        : domains_(std::move(domains)), cellSize_(cellSize), isSmall_(isSmall)
 {
 	low_ = Vec<Dim>::Constant(infinite), high_ = -low_;
 	for (const auto& d : domains_) {
@@ -75,8 +77,8 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell. A domain that it enters counts if it is not far behind one
-/// of those, where the line is beside them: corners of soil oblique to the line lie beside it, not in front.
+/// then those count which it misses by a quarter of a cell. Before a small ball a domain that it enters counts if it
+/// is not far behind one of those, where the line is beside them: corners of soil oblique to the line lie beside it.
 template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
 	const double   aside = 0.25 * cellSize_;
@@ -89,7 +91,8 @@ template <int Dim> double SoilNear<Dim>::gapFrom(const Vec<Dim>& position, const
 		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
 		hit = std::min(hit, straight), near = std::min(near, here);
 	});
-	if (hit == infinite || hit < near + 2 * aside) return hit < infinite ? hit : near;
+	if (hit < infinite && hit < near + 2 * aside) return hit;
+	if (hit == infinite || !isSmall_) return near;
 	forIn(position.cwiseMin(end) - margin, position.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!d.isInFrontOf(normal) || entry(position, normal, d) < infinite || (hides && hides(d.centre))) return;
 		missed = std::min(missed, beside(position, normal, d, aside));

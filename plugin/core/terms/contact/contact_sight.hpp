@@ -37,7 +37,8 @@ struct Sight {
 /// The domains near one body, by bins of the size of the smallest cells.
 template <int Dim> class SoilNear {
 public:
-	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
+	/// `isSmall`: the body is a ball of few cells, whose normals lead into the soil at all angles.
+	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize, bool isSmall = false);
 
 	/// Looks from a contact point along the normal, no farther than the reach. Soil whose closest side of the body
 	/// looks elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the
@@ -61,6 +62,7 @@ private:
 	Vec<Dim>                                  low_, high_;
 	Index<Dim>                                size_;
 	double                                    cellSize_, largest_ = 0;
+	bool                                      isSmall_;
 };
 
 } // namespace gimpm

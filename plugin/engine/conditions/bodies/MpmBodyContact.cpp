@@ -6,6 +6,7 @@
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "engine/conditions/bodies/contact_records.hpp"
 #include "engine/conditions/bodies/layers.hpp"
+#include "engine/conditions/bodies/tearing.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
 #include "yade_api/registration.hpp"
 #include <set>
@@ -63,6 +64,11 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 	if (isOfOne() && analysis.distributed)
 		throw std::invalid_argument(
 		        name + ".between: contact of body '" + between[0] + "' with itself cannot go with distributed=True yet; leave one of the two out.");
+}
+
+string MpmBodyContact::divideBodies(const Analysis& analysis, const vector<MaterialPoint>& points) const
+{
+	return isOfOne() ? tear(between[0], analysis, points) : "";
 }
 
 void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const

@@ -74,6 +74,11 @@ public:
 	// There must be bodies of these names, with a surface, and one contact between two of them.
 	void requireFitting(const Analysis&, const string& name) const override;
 	bool partsBodies() const override { return true; }
+	bool isBetween(const string& one, const string& other) const override
+	{
+		return between.size() == 2 && ((between[0] == one && between[1] == other) || (between[0] == other && between[1] == one));
+	}
+	string divideBodies(const Analysis&, const vector<MaterialPoint>&) const override;
 
 	// True if it is between the parts of one body.
 	bool isOfOne() const { return between.size() == 2 && between[0] == between[1]; }

@@ -126,7 +126,7 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 	for (const Vector3r& x : from.initialVertices.empty() ? from.vertices : from.initialVertices)
 		body.surface.vertices0.push_back(x.head<Dim>());
 	const bool isMet = std::any_of(given.begin(), given.end(), [&](const auto& contact) {
-		return std::find(contact->between.begin(), contact->between.end(), nameOfWhole(grid, number)) != contact->between.end();
+		return std::find(contact->between.begin(), contact->between.end(), grid.nameOfWhole(number)) != contact->between.end();
 	});
 	for (size_t i = 0; isMet && i < from.pieces.size(); ++i) {
 		body.surface.pieces.emplace_back();

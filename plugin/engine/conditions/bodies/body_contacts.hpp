@@ -30,7 +30,7 @@ private:
 	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
 	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
 	void                          requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;
-	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + nameOfWhole(grid, body) + "'"; }
+	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.nameOfWhole(body) + "'"; }
 
 	const Analysis&                           analysis;
 	const MpmGrid&                            grid;

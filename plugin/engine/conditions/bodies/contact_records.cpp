@@ -11,12 +11,6 @@ vector<int> partsOf(const MpmGrid& grid, const string& body)
 	return parts;
 }
 
-string nameOfWhole(const MpmGrid& grid, int body)
-{
-	const MpmBody& own = *grid.bodies[body];
-	return own.partOf.empty() ? own.name : own.partOf;
-}
-
 vector<std::pair<int, int>> pairsOf(const MpmBodyContact& contact, const MpmGrid& grid)
 {
 	vector<std::pair<int, int>> pairs;

@@ -16,9 +16,6 @@ struct ContactRecord {
 // Numbers of a body by its name, and of the parts that have come off it.
 vector<int> partsOf(const MpmGrid&, const string& body);
 
-// Name by which a script knows a body: that of the whole of which it is a part.
-string nameOfWhole(const MpmGrid&, int body);
-
 // Pairs of bodies that a contact acts between, the first one of a body of `between[0]`: of contact of a body with
 // itself, all pairs of its parts.
 vector<std::pair<int, int>> pairsOf(const MpmBodyContact&, const MpmGrid&);

@@ -8,18 +8,14 @@ namespace yade {
 
 static bool meet(const Analysis& analysis, const string& one, const string& other)
 {
-	const std::set<string> names { one, other };
-	for (const Listed& listed : analysis.conditions())
-		if (const auto* contact = dynamic_cast<const MpmBodyContact*>(listed.condition.get());
-		    contact && std::set<string>(contact->between.begin(), contact->between.end()) == names)
-			return true;
-	return false;
+	const auto all = analysis.conditions();
+	return std::any_of(all.begin(), all.end(), [&](const Listed& listed) { return listed.condition->isBetween(one, other); });
 }
 
 bool meet(const Analysis& analysis, int one, int other)
 {
 	if (one < 0 || other < 0 || one == other) return false;
-	return meet(analysis, nameOfWhole(*analysis.grid, one), nameOfWhole(*analysis.grid, other));
+	return meet(analysis, analysis.grid->nameOfWhole(one), analysis.grid->nameOfWhole(other));
 }
 
 vector<int> bodyLayers(const Analysis& analysis)

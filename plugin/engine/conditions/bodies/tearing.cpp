@@ -89,7 +89,7 @@ namespace {
 		shared_ptr<MpmBody> newBody() const
 		{
 			const shared_ptr<MpmBody> part(new MpmBody);
-			part->partOf = nameOfWhole(grid, body);
+			part->partOf = grid.nameOfWhole(body);
 			for (int number = 2; part->name.empty() || grid.bodyNamed(part->name) >= 0; ++number)
 				part->name = part->partOf + " " + std::to_string(number);
 			return part;
@@ -196,31 +196,29 @@ namespace {
 		return contacts;
 	}
 
-	// Bodies that have a contact with themselves, by their numbers, with their points.
-	std::map<int, vector<const MaterialPoint*>> bodiesToTear(
-	        const vector<shared_ptr<MpmBodyContact>>& contacts, const MpmGrid& grid, const vector<MaterialPoint>& points)
+	// Parts of a body by their numbers, with their points.
+	std::map<int, vector<const MaterialPoint*>> partsToTear(const string& body, const MpmGrid& grid, const vector<MaterialPoint>& points)
 	{
-		std::map<int, vector<const MaterialPoint*>> bodies;
-		for (const auto& contact : contacts)
-			if (contact->isOfOne())
-				for (const int body : partsOf(grid, contact->between[0]))
-					bodies[body] = {};
+		std::map<int, vector<const MaterialPoint*>> parts;
+		for (const int part : partsOf(grid, body))
+			parts[part] = {};
 		for (const MaterialPoint& point : points)
-			if (const auto found = bodies.find(point.state->body); found != bodies.end()) found->second.push_back(&point);
-		return bodies;
+			if (const auto found = parts.find(point.state->body); found != parts.end()) found->second.push_back(&point);
+		return parts;
 	}
 
-	template <int Dim> string tearIn(MpmGrid& grid, const vector<shared_ptr<MpmBodyContact>>& contacts, const vector<MaterialPoint>& points)
+	template <int Dim>
+	string tearIn(const string& name, MpmGrid& grid, const vector<shared_ptr<MpmBodyContact>>& contacts, const vector<MaterialPoint>& points)
 	{
 		constexpr int least = 1 << Dim; // points of a part that gets a body
 		string        doubt;
-		for (const auto& [body, own] : bodiesToTear(contacts, grid, points)) {
+		for (const auto& [body, own] : partsToTear(name, grid, points)) {
 			Torn<Dim> torn(grid, body, own);
 			auto      parts = torn.parts(least);
 			const int room  = gimpm::Grid<Dim>::mostLayer - int(grid.bodies.size());
 			if (int(parts.size()) - 1 > room) {
 				doubt = gimpm::sentence(
-				        "body '", nameOfWhole(grid, body), "' falls into more parts than the ", gimpm::Grid<Dim>::mostLayer,
+				        "body '", name, "' falls into more parts than the ", gimpm::Grid<Dim>::mostLayer,
 				        " bodies that can be in contact: those beyond stick where they share cells.");
 				parts.resize(std::max(0, room) + 1);
 			}
@@ -228,72 +226,12 @@ namespace {
 		}
 		return doubt;
 	}
-
-	// Pairs whose domains share nodes, of those that are asked for.
-	template <int Dim>
-	std::set<std::pair<int, int>> pairsThatStick(const Analysis& analysis, const vector<MaterialPoint>& points, const std::set<std::pair<int, int>>& pairs)
-	{
-		const Real                           h = analysis.grid->cellSize;
-		std::map<int, gimpm::DomainBox<Dim>> around; // all domains of a body
-		for (const MaterialPoint& point : points) {
-			const auto box         = boxOf<Dim>(point);
-			const auto [at, isNew] = around.emplace(point.state->body, box);
-			if (!isNew) at->second = { at->second.low.cwiseMin(box.low), at->second.high.cwiseMax(box.high) };
-		}
-		std::set<std::pair<int, int>> found;
-		for (const auto& [one, other] : pairs) {
-			if (!around.count(one) || !around.count(other)) continue;
-			const gimpm::Vec<Dim> low  = around[one].low.cwiseMax(around[other].low).array() - 2 * h,
-			                      high = around[one].high.cwiseMin(around[other].high).array() + 2 * h;
-			if ((high - low).minCoeff() < 0) continue;
-			Boxes<Dim>  boxes;
-			vector<int> owners;
-			for (const MaterialPoint& point : points) {
-				if (point.state->body != one && point.state->body != other) continue;
-				const auto box = boxOf<Dim>(point);
-				if ((box.low - high).maxCoeff() <= 0 && (low - box.high).maxCoeff() <= 0)
-					boxes.push_back(box), owners.push_back(point.state->body);
-			}
-			if (!gimpm::sharingNodes<Dim>(boxes, owners, analysis.grid->origin.template head<Dim>(), h).empty()) found.insert({ one, other });
-		}
-		return found;
-	}
 }
 
-bool mayTear(const Analysis& analysis)
-{
-	const auto contacts = contactsOf(analysis);
-	return std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->isOfOne(); });
-}
-
-string tear(const Analysis& analysis, const vector<MaterialPoint>& points)
+string tear(const string& body, const Analysis& analysis, const vector<MaterialPoint>& points)
 {
 	MpmGrid& grid = *analysis.grid;
-	return grid.dim == 3 ? tearIn<3>(grid, contactsOf(analysis), points) : tearIn<2>(grid, contactsOf(analysis), points);
-}
-
-bool Sticking::mayBegin(const Analysis& analysis)
-{
-	const int count = analysis.distributed ? 0 : int(analysis.grid->bodies.size());
-	pairs.clear();
-	for (int one = -1; one < count; ++one)
-		for (int other = one + 1; other < count; ++other)
-			if (!known.count({ one, other }) && !meet(analysis, one, other)) pairs.insert({ one, other });
-	return !pairs.empty();
-}
-
-string Sticking::warning(const Analysis& analysis, const vector<MaterialPoint>& points)
-{
-	const auto found   = analysis.grid->dim == 3 ? pairsThatStick<3>(analysis, points, pairs) : pairsThatStick<2>(analysis, points, pairs);
-	const bool isFirst = !std::exchange(hasLooked, true);
-	known.insert(found.begin(), found.end());
-	if (isFirst || found.empty()) return "";
-	const auto& [one, other] = *found.begin();
-	const string second = "'" + nameOfWhole(*analysis.grid, other) + "'", first = one < 0 ? "" : "'" + nameOfWhole(*analysis.grid, one) + "'";
-	return (one < 0 ? "points without a name" : "body " + first) + " and body " + second
-	        + " begin to share cells, and have no MpmBodyContact between them: from now on they stick to each other. If they are meant to part again, "
-	        + (one < 0 ? "fill both by name (mpm.fill(..., body=...)) and give them a contact."
-	                   : "add MpmBodyContact(between=(" + first + ", " + second + "), friction=...) to contacts.");
+	return grid.dim == 3 ? tearIn<3>(body, grid, contactsOf(analysis), points) : tearIn<2>(body, grid, contactsOf(analysis), points);
 }
 
 } // namespace yade

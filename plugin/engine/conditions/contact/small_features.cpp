@@ -33,7 +33,7 @@ namespace {
 		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
 		        isBetween ? gimpm::sentence(
 		                "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone: bodies do not part it beside ",
-		                inItsWay.empty() ? "another one within three cells, nor where they are hardly longer than a cell" : inItsWay, ". ")
+		                inItsWay.empty() ? "five others near them, nor where they are hardly longer than a cell" : inItsWay, ". ")
 		                  : "",
 		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
 	}
