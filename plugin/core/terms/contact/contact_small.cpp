@@ -83,21 +83,6 @@ bool goesOn(
 	return isSoil(Index<Dim>::Zero()) || (across != axis && isSoil(deeper));
 }
 
-/// Cells of a contact point with the sides of them that its functions reach beyond along an axis: on a node both cells
-/// there.
-template <int Dim> std::vector<std::pair<Attachment<Dim>, int>> sidesBeyond(const Attachment<Dim>& attachment, int axis)
-{
-	constexpr double                             roundOff = 1e-9; // [cells]
-	std::vector<std::pair<Attachment<Dim>, int>> sides;
-	const int                                    side  = sideInCell(attachment, axis);
-	const double                                 local = attachment.inCell()[axis] / (1 << attachment.level);
-	if (side != 0) sides.push_back({ attachment, side });
-	if (side == 0 || std::min(local, 1 - local) > roundOff) return sides;
-	sides.push_back({ attachment, -side });
-	sides.back().first.cell[axis] += side;
-	return sides;
-}
-
 /// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What
 /// is narrower than that acts over a cell anyway.
 bool isSmall(double width, double cellSize) { return width > cellSize * (1 + 1e-9) && width < wideFace * cellSize * (1 + 1e-9); }
@@ -181,18 +166,6 @@ template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, co
 	return shares;
 }
 
-/// True if soil ends beside a contact point along an axis, and not in a plane of symmetry on this side of it.
-template <int Dim> bool endsBeside(const ContactPoint<Dim>& point, const Vec<Dim>& normal, int axis, int mirror, const StepContext<Dim>& step)
-{
-	const Mirrors<Dim> planes(step.basis, step.grid, step.dofs, point.layer());
-	const auto         sides = sidesBeyond(point.attached, axis);
-	const auto         isEnd = [&](const auto& beyond) {
-                const auto& [from, side] = beyond;
-                return side * normal[axis] > -0.3 && !goesOn(from, normal, axis, side, step.basis, step.grid, point.layer(), planes);
-	};
-	return (sides.empty() || mirror != sides[0].second) && std::any_of(sides.begin(), sides.end(), isEnd);
-}
-
 template <int Dim>
 void widenOn(int number, const std::vector<RigidBody<Dim>>& bodies, const StepContext<Dim>& step, const std::vector<int>& count, ContactPoint<Dim>* first)
 {
@@ -208,14 +181,18 @@ void widenOn(int number, const std::vector<RigidBody<Dim>>& bodies, const StepCo
 	const auto around   = bodiesAround(bodies, number, contactTolerance(h));
 	const auto isJoined = [&](int b) { return count[b] > 0 && bodies[b].shape.kind != RigidKind::plane; };
 	if (std::any_of(around.begin(), around.end(), isJoined)) return;
+	const auto              planesOf = [&](const ContactPoint<Dim>& point) { return Mirrors<Dim>(step.basis, step.grid, step.dofs, point.layer()); };
 	std::vector<Index<Dim>> mirrors;
 	for (const auto* point = first; point != last; ++point)
-		mirrors.push_back(Mirrors<Dim>(step.basis, step.grid, step.dofs, point->layer()).beside(point->attached));
+		mirrors.push_back(planesOf(*point).beside(point->attached));
 	if (isHalved<Dim>(at, mirrors)) shares = sharesOf(body, at, h, true);
 	std::array<bool, Dim> isEnd {};
 	for (std::size_t i = 0; i < at.size(); ++i)
-		for (int a = 0; a < Dim; ++a)
-			if (shares[i][a] > 0 && endsBeside(first[i], at[i].normal, a, mirrors[i][a], step)) isEnd[a] = true;
+		for (int a = 0; a < Dim; ++a) {
+			const int side = shares[i][a] > 0 ? sideInCell(first[i].attached, a) : 0;
+			if (side == 0 || mirrors[i][a] == side || side * at[i].normal[a] <= -0.3) continue;
+			if (!goesOn(first[i].attached, at[i].normal, a, side, step.basis, step.grid, first[i].layer(), planesOf(first[i]))) isEnd[a] = true;
+		}
 	for (std::size_t i = 0; i < at.size(); ++i) {
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
