@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/reduce.hpp"
-#include "core/grid/masters.hpp"
-#include <algorithm>
-#include <utility>
+#include "core/solvers/block_sums.hpp"
 
 namespace gimpm {
 namespace {
@@ -26,62 +24,6 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 		}
 }
 
-/// The same with ties.
-template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
-{
-	const MastersOf masters(K.nodes(), dofs.affineConstraints);
-	for (int a = 0; a < K.nodes(); ++a)
-		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
-			if (!K.used(a, c)) continue;
-			const int     b     = K.neighbour(a, c);
-			const double *above = K.at(a, c), *skew = K.isSymmetric() ? nullptr : K.skewAt(a, c);
-			masters.each(a, [&](int m, double ofA) {
-				masters.each(b, [&](int n, double ofB) {
-					for (int i = 0, k = 0; i < Dim; ++i)
-						for (int j = 0; j < Dim; ++j, ++k) {
-							const int    p = dofs.number[Dim * m + i], q = dofs.number[Dim * n + j];
-							const double weight = ofA * ofB;
-							if (p < 0 || q < 0) continue;
-							f(p, q, weight * above[k]);
-							if (b != a) f(q, p, weight * (skew ? above[k] + skew[k] : above[k]));
-						}
-				});
-			});
-		}
-}
-
-/// The same of the couplings, scaled, with the signs of the rows.
-template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& dofs, F&& f)
-{
-	const DofMap&   map = K.map();
-	const MastersOf masters(map.nodes(), dofs.affineConstraints);
-	K.forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
-		const Field &ofRow = map[row.field], &ofColumn = map[column.field];
-		const bool   isMirrored = K.isSymmetric() && (row.field != column.field || row.node != column.node);
-		masters.each(row.node, [&](int m, double ofM) {
-			masters.each(column.node, [&](int n, double ofN) {
-				const double weight = ofM * ofN * K.signOf(row.field) * ofRow.scale * ofColumn.scale;
-				for (int i = 0, k = 0; i < ofRow.width; ++i)
-					for (int j = 0; j < ofColumn.width; ++j, ++k) {
-						const int p = dofs.number[map.at(row.field, m) + i], q = dofs.number[map.at(column.field, n) + j];
-						if (p < 0 || q < 0) continue;
-						f(p, q, weight * values[k]);
-						if (isMirrored) f(q, p, weight * values[k]);
-					}
-			});
-		});
-	});
-}
-
-/// Calls f for all entries.
-template <int Dim, class F> void forEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, F&& f)
-{
-	if (dofs.affineConstraints) forTiedEntries(K, dofs, f);
-	else
-		forFreeEntries(K, dofs, f);
-	if (couplings) forCoupledEntries(*couplings, dofs, f);
-}
-
 /// Columns of the entries for which forEntries(f) calls f(row, column, value), twice the same, in their order.
 template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 {
@@ -97,41 +39,6 @@ template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 		out.row[e]   = row;
 		out.value[e] = value;
 	});
-}
-
-/// Adds up entries in the same position, and lets the rows of each column rise.
-void addUpEqual(const Csc& K, Csc& sums)
-{
-	std::vector<double> sum(K.size());
-	std::vector<int>    lastColumn(K.size(), -1);
-	sums.start.assign(1, 0);
-	sums.row.clear();
-	for (int c = 0; c < K.size(); ++c) {
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
-			const int  row   = K.row[e];
-			const bool isNew = std::exchange(lastColumn[row], c) != c;
-			if (isNew) sums.row.push_back(row);
-			sum[row] = isNew ? K.value[e] : sum[row] + K.value[e];
-		}
-		std::sort(sums.row.begin() + sums.start.back(), sums.row.end());
-		sums.value.resize(sums.row.size());
-		for (int e = sums.start.back(); e < int(sums.row.size()); ++e)
-			sums.value[e] = sum[sums.row[e]];
-		sums.start.push_back(int(sums.row.size()));
-	}
-}
-
-/// In any order, and several entries in one position: nodes beyond the sides of a periodic grid have lower numbers,
-/// masters and nodes that are coupled may have any.
-template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, bool isTriangle, Csc& out)
-{
-	Csc columns;
-	fill(columns, dofs.count, [&](auto&& f) {
-		forEntries(K, dofs, couplings, [&](int row, int column, double value) {
-			if (row >= column || !isTriangle) f(row, column, value);
-		});
-	});
-	addUpEqual(columns, out);
 }
 
 /// Appends a column for a displacement of a node, from its rows and those of its neighbours, which rise.
@@ -232,14 +139,14 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.affineConstraints) return reduceUnordered(K, dofs, couplings, true, out);
+	if (K.isPeriodic() || dofs.affineConstraints) return addUp(K, dofs, couplings, true, out);
 	reduceInOrder(K, dofs, couplings, out);
 }
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.affineConstraints || couplings) return reduceUnordered(K, dofs, couplings, false, out);
-	fill(out, dofs.count, [&](auto&& f) { forEntries(K, dofs, couplings, f); });
+	if (K.isPeriodic() || dofs.affineConstraints || couplings) return addUp(K, dofs, couplings, false, out);
+	fill(out, dofs.count, [&](auto&& f) { forFreeEntries(K, dofs, f); });
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
