@@ -69,13 +69,15 @@ def tbar():
 
 
 def clay(line, low):
-	"""To the right of a line from the surface to the axis. Cells of the size h are within three radii of the path down to y = *low*. Grid, boundaries and pressure."""
+	"""To the right of a line from the surface to the axis. Cells of the size h are within three radii of the path down to y = *low*, or two where edges have smaller ones. Grid, boundaries and loads."""
 	halvings = 2 if isBar else 3
+	isHalved = options.halvings > 0 and not isBar
+	near = (2 if isHalved else 3) * R
 	size = h * 2**halvings
 	width, deep = (np.ceil(x / size - 1e-9) * size for x in ((16 if isBar else 32) * R, -low + 17 * R))
 	high = lambda k: -3.5 * R + 1.5 * k * R if isBar else inf
-	boxes = [MpmRefinement(min=(-inf, low - 3 * R * 2**k, -inf), max=(3 * R * 2**k, high(k), inf), halvings=halvings - k) for k in range(halvings)]
-	if not isBar: boxes.append(MpmRefinement(min=(-inf, -h / 2, -inf), halvings=halvings))  # a pressure wants cells of one size along its surface
+	boxes = [MpmRefinement(min=(-inf, low - near * 2**k, -inf), max=(near * 2**k, high(k), inf), halvings=halvings - k) for k in range(halvings)]
+	if not isBar and not isHalved: boxes.append(MpmRefinement(min=(-inf, -h / 2, -inf), halvings=halvings))  # a pressure wants cells of one size along its surface
 	adaptation = [MpmAdaptation(halvings=halvings + options.halvings)] if options.halvings else []
 	grid = MpmGrid(cellSize=size, axisymmetric=not isBar, refinements=boxes, adaptation=adaptation)
 	O.materials.append(MpmTrescaMat(young=2 * (1 + nu) * G, poisson=nu, density=1, undrainedStrength=cu, label='clay'))
@@ -83,7 +85,8 @@ def clay(line, low):
 	mpm.assign(stress=np.repeat(-pressure * np.eye(3)[None], len(points), axis=0))
 	sides = [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -deep, inf), fix='xy')]
 	if isBar: sides.append(MpmBoundary(max=(0, inf, inf), fix='x'))
-	return grid, sides, MpmTraction(surface=[(width, 0), line[0]], pressure=pressure)
+	if not isHalved: return grid, sides, [MpmTraction(surface=[(width, 0), line[0]], pressure=pressure)]
+	return grid, sides, [MpmTraction(surface=[(near - h, 0), line[0]], pressure=pressure), MpmTraction(surface=[(width, 0), (near - h, 0)], traction=(0, -pressure, 0))]
 
 
 def push(way, steps, until=lambda: False):
@@ -173,9 +176,9 @@ def draw():
 
 O.materials.append(FrictMat(label='rigid'))
 bodies, line, low, outline = dict(cone=cone, pile=pile, tbar=tbar)[options.scene]()
-grid, sides, load = clay(line, low)
+grid, sides, loads = clay(line, low)
 contact = MpmContact(stiffness=options.stiffness, friction=np.arctan(5) if rough else 0, adhesion=rough * cu if rough else inf)
-O.engines = [MpmImplicitEngine(grid=grid, fBar=True, pressureRelaxation=isBar, boundaries=sides, loads=[load], loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
+O.engines = [MpmImplicitEngine(grid=grid, fBar=True, pressureRelaxation=isBar, boundaries=sides, loads=loads, loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
 if options.picture:
 	O.engines += [MpmVtkRecorder(fileName=os.path.join(options.out, options.scene + '-'), recorders=['points', 'loads'], iterPeriod=20)]
 	film = mpm.movie(os.path.join(options.out, options.scene + '.gif'), 'plasticStrain', every=20, limits=((0, 5 * R), (low - R, 0)), size=(8, 7), grid=True, loads=False, range=(0, 2))

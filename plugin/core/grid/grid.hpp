@@ -36,6 +36,8 @@ template <int Dim> struct Grid {
 
 	/// Regions of smaller and larger cells; null: all cells are equal.
 	std::shared_ptr<const Refinement<Dim>> refinement {};
+	/// True if cells are halved anew in each step, so that bodies move by a large part of the smallest in a step.
+	bool isAdaptive = false;
 
 	/// Lines that part the body, in a grid of equal cells; null: there are none.
 	std::shared_ptr<const Parting<Dim>> parting {};

@@ -121,6 +121,7 @@ template <int Dim> gimpm::Grid<Dim> MpmGrid::lattice() const
 	requireAxis();
 	gimpm::Grid<Dim> grid { cellSize, origin.head<Dim>(), periodInCells().head<Dim>(), axisymmetric, nullptr };
 	if (!refinements.empty() || !adapted.empty()) refine(grid);
+	grid.isAdaptive = !adaptation.empty();
 	return grid;
 }
 template gimpm::Grid<2> MpmGrid::lattice() const;

@@ -139,13 +139,13 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 {
 	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
 	most               = step_.division.largest(most);
-	const double depth = deepestInBody * step_.grid.cellSize;
 	for (const NearPoint& near : nearPoints(system_.bodies, step_.cloud, step_.basis, step_.grid, most)) {
 		if (near.point >= step_.division.ownOf(step_.cloud.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
 		const Vec<Dim> centre   = step_.cloud.position[near.point];
 		const auto     attached = attach(centre, step_.basis, step_.grid, step_.cloud.layerOf(near.point));
 		if (!attached) continue;
+		const double         depth = deepestInBody * (step_.grid.isAdaptive ? cellSizeAt(step_.grid, centre) : step_.grid.cellSize);
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
 		const double         deeper = before.gap - after.gap, behind = near.side == body.soilSide ? body.slack : 0;

@@ -30,10 +30,13 @@ constexpr double offChord = 1. / 8;
 /// Between nodes soil is straight, so that the centre of a point may get behind a facet by a little, as at the tip of a
 /// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
 /// a Box. Soil in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
-template <int Dim> void takeSides(ContactSystem<Dim>& system, double cellSize)
+template <int Dim> void takeSides(ContactSystem<Dim>& system, const Grid<Dim>& grid)
 {
 	for (auto& body : system.bodies)
-		body.soilSide = 0, body.slack = deepestInBody * cellSize;
+		body.soilSide = 0, body.slack = deepestInBody * grid.cellSize;
+	if (grid.isAdaptive)
+		for (const auto& r : system.records) // large cells, which were small before, let it in as far
+			if (double& slack = system.bodies[r.body].slack; r.touches) slack = std::max(slack, deepestInBody * cellSizeAt(grid, r.position));
 	for (auto first = system.records.begin(), last = first; first != system.records.end(); first = last) {
 		last                 = std::find_if(first, system.records.end(), [&](const auto& r) { return r.body != first->body; });
 		const bool isTouched = std::any_of(first, last, [](const auto& r) { return r.touches; });
@@ -153,7 +156,7 @@ public:
 	void checkOverlap()
 	{
 		const bool isThin  = body_.nodes > 0 && body_.thickness() < h_ / 2;
-		const bool isPlain = body_.shape.kind == RigidKind::ball && (body_.frictionCoefficient == 0 || body_.adhesion == 0);
+		const bool isPlain = body_.shape.kind == RigidKind::ball && isSmooth();
 		if (first_ != last_ && body_.turn > 1 && !isPlain)
 			to_.obstacle = sentence(
 			        body_.name, " turns by ", body_.turn,
@@ -218,7 +221,8 @@ private:
 		if (made.areaFraction <= noArea) return;
 		// Pressed soil begins inside of the body: at its face even pressure would not balance even stress.
 		if (touched && record->gap < 0 && !isWithin) made.soil = onBody + record->gap * normal;
-		if (!place(made, point, layerBefore(step_.grid, onBody, normal, layer))) return;
+		const int before = layerBefore(step_.grid, onBody, normal, layer);
+		if (!placeAhead(made, record, point, before) && !place(made, point, before)) return;
 		made.area            = made.areaFraction * point.area * (isRing ? 2 * M_PI * onBody[0] : 1);
 		made.young           = sight->young;
 		const double penalty = body_.stiffness * made.young * made.area / h_;
@@ -240,6 +244,25 @@ private:
 		const double h      = cellSizeAt(step_.grid, onBody);
 		const auto   behind = soil.from(onBody, -normal, h / 2);
 		return behind && gap + behind->gap <= deepestInBody * h;
+	}
+
+	bool isSmooth() const { return body_.frictionCoefficient == 0 || body_.adhesion == 0; }
+
+	/// Attaches it to the soil that will be in front of it as the step ends: all that the body moves along its face
+	/// where it is smooth, else as far as soil slid in the last step. Soil in front of an edge as the step begins is
+	/// beyond it as the step ends, and would be pushed on: the edge would act as if it were wider by half of the slip.
+	/// False where cells do not follow bodies, and where there is no soil ahead.
+	bool placeAhead(ContactPoint<Dim>& made, const ContactRecord<Dim>* record, const SurfacePoint<Dim>& point, int layer) const
+	{
+		if (!step_.grid.isAdaptive || system_.kind == StepKind::dynamic) return false;
+		const Vec<Dim> carried = body_.carried(made.soil), along = carried - carried.dot(made.normal) * made.normal, soil = made.soil;
+		const double   most = along.norm(), way = isSmooth() ? most : record ? std::min(record->travel, most) : 0;
+		if (!(way > 0)) return false;
+		made.soil += way / most * along;
+		if (step_.grid.axisymmetric) made.soil[0] = std::max(0., made.soil[0]);
+		if (place(made, point, layer)) return true;
+		made.soil = soil;
+		return false;
 	}
 
 	/// Attaches it to the soil. False behind a wall, where there is none.
@@ -306,7 +329,7 @@ private:
 template <int Dim> FoundContact<Dim> findContactPoints(ContactSystem<Dim>& system, const StepContext<Dim>& step)
 {
 	FoundContact<Dim> found;
-	takeSides(system, step.grid.cellSize);
+	takeSides(system, step.grid);
 	const auto soil = soilNear(system, step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		BodySearch<Dim> search(system, step, soil, body, found);
