@@ -137,8 +137,8 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d)
 /// Soil farther from a body than it is looked for may move as far as that and more.
 template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
 {
-	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
-	most               = step_.division.largest(most);
+	double most = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
+	most        = step_.division.largest(most);
 	for (const NearPoint& near : nearPoints(system_.bodies, step_.cloud, step_.basis, step_.grid, most)) {
 		if (near.point >= step_.division.ownOf(step_.cloud.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
