@@ -34,7 +34,7 @@ runs = {
         'lined_tunnel': ['lined_tunnel.py', 'shaft.py'],
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
-                *(f'deep.py --cells 4 --halvings 1 --stepsPerCell 16 --rigidity {which}' for which in ('50', '200', '500', '200 --rough 1')), 'cptu.py',
+                *(f'deep.py --cells 4 --halvings 1 --rigidity {which}' for which in ('50', '200', '500', '200 --rough 1')), 'cptu.py',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
         'adaptive': ['adaptive.py', 'slip.py'],

@@ -30,8 +30,8 @@ struct Lists {
 	}
 };
 
-/// A block as it is stored, of two nodes in their fields, which may be tied. Its mirrored entries belong to the opposite
-/// block; null: it has none.
+/// A block as it is stored, of two nodes in their fields, which may be tied. Its mirrored entries belong to the
+/// opposite block; null: it has none.
 struct StoredBlock {
 	FieldNode     row, column;
 	const double *values, *mirrored;

@@ -8,7 +8,7 @@ from math import atan, ceil, inf, log, pi, radians, tan
 
 import numpy as np
 from yade import mpm, pack, utils
-from yade.wrapper import MpmBoundary, MpmContact, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmRefinement, MpmTraction, MpmTrescaMat, MpmVonMisesMat, Omega
+from yade.wrapper import MpmAdaptation, MpmBoundary, MpmContact, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmRefinement, MpmTraction, MpmTrescaMat, MpmVonMisesMat, Omega
 
 from .bodies import One, Outline, QuarterCone, steel
 from .course import Course, meanBetween, smoothness
@@ -248,14 +248,14 @@ def sandInSpace(depth=3., radius=.4, cells=2, wide=5., points=2, stiffness=20., 
 	return _told(course, h, depth * radius, radius, *pushed, .6 * depth * radius, unit='kPa')
 
 
-def quarterPushedIntoSand(travel, radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600):
-	"""Result of pushedIntoSand; *travel* in m."""
+def quarterPushedIntoSand(travel, radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600, halvings=0):
+	"""Result of pushedIntoSand; *travel* in m. With halvings of the cells at edges a step is a quarter of the smallest ones, or less."""
 	O.reset()
 	_sandMaterial()
 	h = radius / cells
 	width, low = ceil(wide * cells) * h, -ceil(wide * cells + travel / h - 1e-9) * h
-	grid = MpmGrid(cellSize=h, dim=3)
+	grid = MpmGrid(cellSize=h, dim=3, adaptation=[MpmAdaptation(halvings=halvings)] if halvings else [])
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, low, 0), (width, 0, width)), grid, points, 'soil'))
 	body, contact = QuarterCone(radius, travel + radius), MpmContact(friction=0, stiffness=stiffness)
 	course = Course(_sand(grid, contact, _quarter(width, low)), seconds)
-	return course, *_push(course, body, contact, h, travel, lambda F: F / (pi * radius**2 / 4) / 1e3)
+	return course, *_push(course, body, contact, h / 2**max(0, halvings - 1), travel, lambda F: F / (pi * radius**2 / 4) / 1e3)

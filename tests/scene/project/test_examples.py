@@ -409,6 +409,20 @@ def test_deep_penetration(yade):
 		assert (run.folder / f'out/deep/{scene}-points.pvd').read_text().count('<DataSet') > 1
 
 
+def test_a_cone_with_halved_edges_takes_large_steps(yade):
+	"""Two cells over the radius, halved once: N in steps of a quarter of the large cells is within 5 % of that in steps of a sixteenth."""
+	found = []
+	for steps in 4, 16:
+		run = yade(root / 'examples' / 'penetration' / 'deep.py', '--picture', 0, '--cells', 2, '--halvings', 1, '--depth', 3, '--stepsPerCell', steps)
+		found.append(float(re.search(r'mean N, Lu et al. = ([0-9.]+)', run.stdout)[1]))
+	assert abs(found[0] / found[1] - 1) < 0.05, found
+
+
+def test_a_cone_in_sand_is_pushed_as_a_quarter_with_halved_edges(yade):
+	run = yade(root / 'examples' / 'penetration' / 'sand.py', '--cells', '', '--quarter', '1+2', '--depth3d', 0.1)
+	assert '3D, 1 cells over R, halved 2 times at edges: all of 0.10 m' in run.stdout
+
+
 def test_cone_with_pore_pressures(yade):
 	"""Coarse cells, over a short way: the slower the cone, the larger its resistance and the smaller the pressures. Without pressures it is the run without water, to 2 %; at the other end
 	pressures vary by cells of half of the radius, and it is 12 % stronger than without flow."""
