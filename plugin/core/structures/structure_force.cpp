@@ -118,6 +118,13 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const StepContext<Di
 	}
 }
 
+/// Attaches a position on one side of a beam: it is on its side of other cuts nearby.
+static std::optional<Attachment<2>> attachBeside(const Vec<2>& position, int side, int ofBeam, const StepContext<2>& step)
+{
+	const int others = step.grid.parting ? step.grid.parting->layerAt(position) & ~ofBeam : 0;
+	return attach<2>(position, step.basis, step.grid, others | side);
+}
+
 /// Parts the soil along a beam: the soil to the left, and the soil to the right where it has other nodes.
 template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim>& step, std::vector<SoilAtVertex>& soil)
 {
@@ -133,7 +140,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const StepContext<Dim
 			const Vec<2> t        = beam.tangentAt(int(v)), n(-t[1], t[0]);
 			const auto   attachAt = [&](int side, double away) {
                                 const Vec<2> position = beam.positions[v] + (side == 0 ? away : -away) * n;
-                                return attach<2>(position, step.basis, step.grid, side == 0 ? 0 : beam.layer);
+                                return attachBeside(position, side == 0 ? 0 : beam.layer, beam.layer, step);
 			};
 			std::array at { attachAt(0, 0), attachAt(1, 0) };
 			const bool isOne = at[0] && at[1] && at[0]->node == at[1]->node;
@@ -210,7 +217,7 @@ template <int Dim> void StructureForce<Dim>::bondAheadOfTips(const StepContext<D
 			const Vec<2>                t   = beam.tangentAt(end == 0 ? 0 : int(beam.positions.size()) - 1);
 			std::array<SoilAtVertex, 2> beside;
 			const Vec<2>                n(-t[1], t[0]);
-			const auto attachTo = [&](int layer, double away) { return attach<2>(positions[i] + away * n, step.basis, step.grid, layer); };
+			const auto attachTo = [&](int layer, double away) { return attachBeside(positions[i] + away * n, layer, beam.layer, step); };
 			auto       left = attachTo(0, 0), right = attachTo(beam.layer, 0);
 			const bool isParted = beam.isTip[end] && left && right && left->node != right->node;
 			if (isParted)

@@ -304,26 +304,31 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 	});
 }
 
-/// Round-off that large pressures of small gradient leave, and that of volumes.
+/// Round-off that large pressures of small gradient leave, and that of volumes; and what is left of pressures that vanish
+/// in the step on the displacements.
 template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& absoluteContributions) const
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
-	const Eigen::VectorXd P        = state.value(field);
+	const Eigen::VectorXd P = state.value(field), before = state.before(field).cwiseAbs();
 	forRanges(basis_, [&](int first, int last) {
 		for (auto patch = basis_.patches.begin() + first; patch != basis_.patches.begin() + last; ++patch)
 			for (int i = patch->first; i < patch->first + patch->count; ++i) {
 				const PointFunctions<Dim> f(basis_, i, *patch);
 				const PorePoint&          point = points_[basis_.order[i]];
 				const double flow     = water_.duration * point.volume * point.pores->largestRatio() * point.pores->at(point.ratio).value;
-				double       gradient = 0, steepness[windowNodes<Dim>];
+				double       gradient = 0, pressure = 0, steepness[windowNodes<Dim>];
 				for (int n = 0; n < f.count; ++n) {
 					steepness[n] = f.gradient[n].norm();
-					if (patch->node[n] >= 0) gradient += steepness[n] * std::abs(P[patch->node[n]]);
+					if (patch->node[n] < 0) continue;
+					gradient += steepness[n] * std::abs(P[patch->node[n]]), pressure += f.value[n] * before[patch->node[n]];
 				}
-				for (int n = 0; n < f.count; ++n)
-					if (patch->node[n] >= 0)
-						absoluteContributions[field][patch->node[n]]
-						        += roundOff * (flow * gradient * steepness[n] + point.volume * f.value[n]);
+				for (int n = 0; n < f.count; ++n) {
+					const int a = patch->node[n];
+					if (a < 0) continue;
+					absoluteContributions[field][a] += roundOff * (flow * gradient * steepness[n] + point.volume * f.value[n]);
+					absoluteContributions[0].template segment<Dim>(Dim * a).array()
+					        += roundOff * point.coupling() * point.volume * pressure * (steepness[n] + f.hoop[n]);
+				}
 			}
 	});
 	for (const Outlet& outlet : outlets_)

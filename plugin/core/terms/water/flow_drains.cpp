@@ -137,7 +137,8 @@ template <int Dim> void Flow<Dim>::attachPassages(const StepContext<Dim>& step)
 		std::iota(surface.pieces[0].begin(), surface.pieces[0].end(), 0);
 		surface.refine(pieceLimit * step.grid.cellSize);
 		for (const auto& [x, area, normal, middle] : quadratureOf(surface, step.grid)) {
-			const auto left = attach<Dim>(x, step.basis, step.grid, 0), right = attach<Dim>(x, step.basis, step.grid, cut.layer);
+			const int  others = step.grid.parting->layerAt(x) & ~cut.layer; // cuts nearby, on the same side of which both are
+			const auto left = attach<Dim>(x, step.basis, step.grid, others), right = attach<Dim>(x, step.basis, step.grid, others | cut.layer);
 			if (!left || !right || left->node == right->node) continue;
 			const int    cell    = gimpm::find(step.basis.populatedLeaves(), left->leaf(step.grid));
 			const double leakage = cut.leakage == LeakyCut<Dim>::asSoil
