@@ -70,6 +70,17 @@ namespace {
 		}
 	}
 
+	/// Forces on all nodes are then next to nothing, and round-off is that of what was there before.
+	TEST(Flow, PressureOfAllSoilMayVanishAtOnce)
+	{
+		Soil<2> soil(0.25, { 4, 2 });
+		soil.hold({ wallAbove<2>(soil.model.grid, 0, 4) });
+		soil.water.pressure.assign(soil.cloud.size(), 1e3);
+		soil.drain(line({ 0, 2 }, { 0, 0 }), Drain<2>::Kind::pressure, 0);
+		ASSERT_TRUE(soil.step(0.01).converged());
+		EXPECT_NEAR(*std::max_element(soil.water.pressure.begin(), soil.water.pressure.end()), 0, 1e-6);
+	}
+
 	TEST(Flow, TheTangentIsThatOfTheForces)
 	{
 		Soil<2> plane(0.5, { 1.7, 1.2 });
