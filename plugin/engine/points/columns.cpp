@@ -157,6 +157,8 @@ namespace {
 		columns.push_back(excessPressure());
 		columns.push_back(result("waterFlux", "m/s", "flux of water", arrays | vtk | ofFlow, [](Point p) { return p.state->waterFlux; }));
 		columns.push_back(result("saturation", "-", "degree of saturation", arrays | vtk | ofAir, [](Point p) { return p.state->saturation; }));
+		columns.push_back(
+		        result("pressureOnGrains", "Pa", "pressure on the grains", arrays | vtk | ofAir, [](Point p) { return p.state->pressureOnGrains; }));
 		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
 			columns.push_back(internal(variable));
 		for (const Parameter& of : allParameters())

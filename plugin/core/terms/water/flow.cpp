@@ -304,8 +304,8 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 	});
 }
 
-/// Round-off that large pressures of small gradient leave, and that of volumes; and what is left of pressures that vanish
-/// in the step on the displacements.
+/// Round-off that large pressures of small gradient leave, and that of volumes; and, in the balance of forces, what is
+/// left of pressures that vanish in the step.
 template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& absoluteContributions) const
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
