@@ -44,6 +44,25 @@ template <int Dim> double tangentErrorAlong(const StepSystem<Dim>& system, const
 	return ((above - below) / (2 * step) - tangent).norm() / tangent.norm();
 }
 
+/// Derivative of the forces of all fields of a step at x, along a step from there: by the tangent, and from central
+/// differences of fourth order.
+template <int Dim> std::array<Eigen::VectorXd, 2> coupledDerivatives(const StepSystem<Dim>& system, const Eigen::VectorXd& x, const Eigen::VectorXd& step)
+{
+	NodeMatrix<Dim> K;
+	Couplings       beside;
+	Eigen::VectorXd force, tangent = Eigen::VectorXd::Zero(x.size());
+	system.prepare(K, &beside);
+	EXPECT_EQ(beside.isSymmetric(), system.isSymmetric());
+	EXPECT_FALSE(system.evaluate(x, force, &K, nullptr, &beside));
+	K.multiplyAdd(step, tangent);
+	beside.multiplyAdd(step, tangent);
+	const auto at = [&](double s) -> Eigen::VectorXd {
+		EXPECT_FALSE(system.evaluate(x + s * step, force, nullptr));
+		return force;
+	};
+	return { tangent, (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / 12 };
+}
+
 /// The largest difference between entries, relative to the largest one.
 inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
 {

@@ -14,14 +14,11 @@ template <int Dim> std::unordered_map<Key, double> coverageOf(const std::vector<
 	for (const auto& box : boxes) {
 		const Vec<Dim>   low = (box.low - origin) / spacing, high = (box.high - origin) / spacing;
 		const Index<Dim> first = (low.array() - 1).floor().template cast<int>(), last = (high.array() + 1).ceil().template cast<int>();
-		Index<Dim>       node = first;
-		for (int a = 0; a < Dim;) {
+		forIndicesUpTo<Dim>(first, last, [&](const Index<Dim>& node) {
 			const Vec<Dim> x    = node.template cast<double>();
 			const double   part = ((x.array() + 1).min(high.array()) - (x.array() - 1).max(low.array())).max(0.).prod() / (1 << Dim);
 			if (part > 0) covered[Grid<Dim>::key(node)] += part;
-			for (a = 0; a < Dim && ++node[a] > last[a]; ++a)
-				node[a] = first[a];
-		}
+		});
 	}
 	return covered;
 }

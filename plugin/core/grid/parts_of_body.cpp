@@ -42,12 +42,7 @@ template <int Dim, class F> void forCellsOf(const DomainBox<Dim>& box, const Vec
 	Index<Dim>       first, last;
 	for (int a = 0; a < Dim; ++a)
 		first[a] = int(std::floor((box.low[a] - origin[a]) / size + slack)), last[a] = int(std::floor((box.high[a] - origin[a]) / size - slack));
-	Index<Dim> cell = first;
-	for (int a = 0; a < Dim;) {
-		f(cell);
-		for (a = 0; a < Dim && ++cell[a] > last[a]; ++a)
-			cell[a] = first[a];
-	}
+	forIndicesUpTo<Dim>(first, last, f);
 }
 
 /// A box in a cell.

@@ -13,6 +13,17 @@ template <int Dim> struct DomainBox {
 
 template <int Dim> DomainBox<Dim> domainBox(const Vec<Dim>& centre, const Vec<Dim>& halfSize) { return { centre - halfSize, centre + halfSize }; }
 
+/// Calls f(index) for all indices from the first to the last one along each axis.
+template <int Dim, class F> void forIndicesUpTo(const Index<Dim>& first, const Index<Dim>& last, F&& f)
+{
+	Index<Dim> at = first;
+	for (int a = 0; a < Dim;) {
+		f(at);
+		for (a = 0; a < Dim && ++at[a] > last[a]; ++a)
+			at[a] = first[a];
+	}
+}
+
 /// Numbers of the parts that boxes belong to, counted from 0 in the order of their first boxes. Boxes that reach into
 /// the same cell or into neighbouring cells share nodes, and are of one part.
 template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>&, const Vec<Dim>& origin, double cellSize);

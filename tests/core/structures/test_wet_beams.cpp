@@ -56,22 +56,9 @@ namespace {
 			};
 			const double          sizes[] = { 0.004, 5e3 };
 			const Eigen::VectorXd x       = in(0, sizes[0]) + in(1, sizes[1]);
-			NodeMatrix<2>         K;
-			Couplings             beside;
-			Eigen::VectorXd       force;
 			EXPECT_EQ(system.isSymmetric(), !isWhole);
-			system.prepare(K, &beside);
-			ASSERT_FALSE(system.evaluate(x, force, &K, nullptr, &beside));
-			const auto at = [&](const Eigen::VectorXd& place) -> Eigen::VectorXd {
-				EXPECT_FALSE(system.evaluate(place, force, nullptr));
-				return force;
-			};
 			for (const int column : { 0, 1 }) {
-				const Eigen::VectorXd step    = in(column, 1e-4 * sizes[column]);
-				Eigen::VectorXd       tangent = Eigen::VectorXd::Zero(x.size());
-				K.multiplyAdd(step, tangent);
-				beside.multiplyAdd(step, tangent);
-				const Eigen::VectorXd slope = (at(x + step) - at(x - step)) / 2;
+				const auto [tangent, slope] = coupledDerivatives(system, x, in(column, 1e-4 * sizes[column]));
 				for (const int row : { 0, 1 })
 					EXPECT_LE((rows(row, tangent) - rows(row, slope)).norm(), 1e-6 * rows(row, slope).norm()) << isWhole << row << column;
 			}

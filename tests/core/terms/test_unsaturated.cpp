@@ -44,22 +44,9 @@ namespace {
                         return x;
 		};
 		const Eigen::VectorXd x = in(0, 1) + in(1, 1);
-		NodeMatrix<Dim>       K;
-		Couplings             beside;
-		Eigen::VectorXd       force;
 		EXPECT_FALSE(system.isSymmetric());
-		system.prepare(K, &beside);
-		ASSERT_FALSE(system.evaluate(x, force, &K, nullptr, &beside));
-		const auto at = [&](const Eigen::VectorXd& place) -> Eigen::VectorXd {
-			EXPECT_FALSE(system.evaluate(place, force, nullptr));
-			return force;
-		};
 		for (const int column : { 0, 1 }) {
-			const Eigen::VectorXd step    = in(column, 1e-3);
-			Eigen::VectorXd       tangent = Eigen::VectorXd::Zero(x.size());
-			K.multiplyAdd(step, tangent);
-			beside.multiplyAdd(step, tangent);
-			const Eigen::VectorXd slope = (8 * (at(x + step) - at(x - step)) - (at(x + 2 * step) - at(x - 2 * step))) / 12;
+			const auto [tangent, slope] = coupledDerivatives(system, x, in(column, 1e-3));
 			for (const int row : { 0, 1 })
 				EXPECT_LE((system.map.of(row, tangent) - system.map.of(row, slope)).norm(), 1e-6 * system.map.of(row, slope).norm())
 				        << row << column;

@@ -71,9 +71,11 @@ template <int Dim> void BodyContact<Dim>::takeWater(const Eigen::VectorXd& press
 {
 	for (ContactPoint& point : contactPoints_) {
 		const auto& meeting = meetingOf(point);
-		if (!point.first || !(isInFilledJoint(point) || point.normalForce > 0 || point.closed <= tolerance_)) continue;
+		if (!point.first) continue;
+		const bool isFilled = isInFilledJoint(point);
+		if (!(isFilled || point.normalForce > 0 || point.closed <= tolerance_)) continue;
 		const double pressure = (point.at.value(pressures) + point.first->foot.value(pressures)) / 2, leakage = meeting.leakage;
-		if (isInFilledJoint(point)) addWedge(point, pressure);
+		if (isFilled) addWedge(point, pressure);
 		else
 			point.law.water = point.area * pressure;
 		if (flows && leakage > 0) passages_.push_back({ { point.at, point.first->foot }, system_.duration * point.area * leakage });
@@ -83,9 +85,9 @@ template <int Dim> void BodyContact<Dim>::takeWater(const Eigen::VectorXd& press
 /// True where water is between the contact point and the piece before it, which look at each other.
 template <int Dim> bool BodyContact<Dim>::isInFilledJoint(const ContactPoint& point) const
 {
-	constexpr double  oblique = -0.5; // cosine of the angle between their normals
-	const Facing<Dim> facing(pair(point.start, meetingOf(point).master, point.first->piece, start_));
-	return meetingOf(point).isFilled && point.normal.dot(facing.normal) < oblique;
+	constexpr double oblique = -0.5; // cosine of the angle between their normals
+	const auto&      meeting = meetingOf(point);
+	return meeting.isFilled && point.normal.dot(Facing<Dim>(pair(point.start, meeting.master, point.first->piece, start_)).normal) < oblique;
 }
 
 /// Water presses along the normal of the contact point.

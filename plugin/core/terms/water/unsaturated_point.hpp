@@ -80,7 +80,7 @@ template <int Dim> struct UnsaturatedPoint {
 	Retention::Value push;                 ///< pressure on the grains [Pa]
 	double           opening[nodes] {};    ///< derivative of the relative permeability by its pressure [1/Pa]
 	double           permeability;         ///< relative
-	/// By ln J, as the curve changes: of the push, of the permeability and of the content.
+	/// Growth of the push, of the permeability and of the content by ln J, as the curve changes.
 	double   pushGrowth, openingGrowth = 0, contentGrowth = 0;
 	Vec<Dim> drive; ///< gradient of the pressure less the weight of the water [Pa/m]
 
