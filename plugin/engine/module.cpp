@@ -2,6 +2,7 @@
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has
 // started, and for work on all material points at once.
 #include "core/solvers/multigrid.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/conditions/flow/poreWater.hpp"
 #include "engine/conditions/water/waterAround.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
@@ -102,6 +103,9 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def(
 	        "bytesSent", +[] { return processes()->sent(); }, "For measurements: what this process has sent to others that mpirun has started.");
+	py::def(
+	        "timesBodiesWereRead", +[] { return long(timesBodiesWereRead); },
+	        "For measurements: how many steps had to read the points from their bodies, as somebody else may have changed them.");
 	py::def("isDivided", &isSceneDivided,
 	        "Whether several processes have divided the material points of the scene among them (MpmImplicitEngine.distributed).");
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");

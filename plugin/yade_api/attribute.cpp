@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "yade_api/attribute.hpp"
+#include <numeric>
 #include <stdexcept>
 
 #pragma GCC visibility push(default)
@@ -69,6 +70,16 @@ void AttributeTable::requireAdmitted(const Serializable& object) const
 {
 	for (const auto& attribute : attributes_)
 		attribute->requireAdmitted(object);
+}
+
+long AttributeTable::assignments() const
+{
+	return std::accumulate(attributes_.begin(), attributes_.end(), 0L, [](long sum, const auto& attribute) { return sum + attribute->assignments(); });
+}
+
+bool AttributeTable::areLent() const
+{
+	return std::any_of(attributes_.begin(), attributes_.end(), [](const auto& attribute) { return attribute->isLent(); });
 }
 
 void AttributeTable::mark(const char* text)

@@ -5,6 +5,7 @@
 #include "yade_api/exposed.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/serialization.hpp"
+#include <atomic>
 #include <boost/archive/archive_exception.hpp>
 #include <cstdint>
 #include <memory>
@@ -26,6 +27,11 @@ public:
 	virtual ~Attribute() = default;
 	bool is(AttributeFlag flag) const { return flags & flag; }
 
+	// How often Python has assigned a value, of any object; and true if it has had one by reference, which may be
+	// changed at any time.
+	long assignments() const { return assignments_; }
+	bool isLent() const { return isLent_; }
+
 	// TypeError or ValueError leave the old value in place.
 	virtual void       assign(Serializable&, const py::object& value) const = 0;
 	virtual py::object read(const Serializable&) const                      = 0;
@@ -43,6 +49,9 @@ protected:
 	string            qualifiedName() const { return string(className) + "." + name; }
 	[[noreturn]] void refuseType(const py::object& value, const string& expected, bool isItem) const;
 	[[noreturn]] void refuseValue(const string& value, const string& expected) const;
+
+	mutable std::atomic_long assignments_ { 0 };
+	mutable std::atomic_bool isLent_ { false };
 };
 
 // A member of any class derived from Serializable: what follows from its type is compiled once for all of them.
@@ -81,6 +90,7 @@ template <class T> void AttributeOf<T>::assign(Serializable& object, const py::o
 	requireAdmitted(*converted);
 	const ValueLock lock;
 	in(object) = *converted;
+	++assignments_;
 }
 
 template <class T> py::object AttributeOf<T>::read(const Serializable& object) const
@@ -97,7 +107,10 @@ template <class T> py::object AttributeOf<T>::getter() const
 {
 	if constexpr (std::is_same_v<T, Vector3r> || std::is_same_v<T, Matrix3r>)
 		if (!is(readonly)) {
-			const auto reference = [this](Serializable& object) -> T& { return in(object); };
+			const auto reference = [this](Serializable& object) -> T& {
+				isLent_ = true;
+				return in(object);
+			};
 			return py::make_function(reference, py::return_internal_reference<>(), boost::mpl::vector2<T&, Serializable&>());
 		}
 	return Attribute::getter();
@@ -170,6 +183,10 @@ public:
 	bool     assign(Serializable&, const string& name, const py::object& value) const;
 	py::dict read(const Serializable&) const;
 	void     requireAdmitted(const Serializable&) const;
+
+	// Of all attributes together, see Attribute.
+	long assignments() const;
+	bool areLent() const;
 
 	// Makes the class of Python: properties, and the constructor by keywords.
 	void addTo(const py::object& c, const py::object& construct);

@@ -13,6 +13,7 @@
 
 namespace yade {
 struct MaterialPoint;
+class KeptColumns;
 
 class Analysis : public RunResults {
 public:
@@ -52,6 +53,7 @@ public:
 
 	// Material points of the last run, in this process.
 	virtual const vector<MaterialPoint>& pointsOfLastRun() const = 0;
+	virtual const KeptColumns&           keptColumns() const     = 0;
 
 	gimpm::DomainRule domainRule() const { return domains == "stretch" ? gimpm::DomainRule::stretch : gimpm::DomainRule::tiling; }
 

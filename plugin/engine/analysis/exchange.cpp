@@ -12,11 +12,9 @@ namespace yade {
 
 namespace {
 	// Domain of the basis 'gimp', limited to half a cell as at the end of a step.
-	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
+	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const gimpm::Vec<Dim>& position, const gimpm::Vec<Dim>& half)
 	{
-		const gimpm::Vec<Dim> half = point.shape->halfSize.head<Dim>();
-		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(gimpm::largestHalf<Dim>(model.grid, point.state->pos.head<Dim>())))
-		                                         : half;
+		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(gimpm::largestHalf<Dim>(model.grid, position))) : half;
 	}
 
 	// Position in the model's list of materials, which grows by each material on its first point.
@@ -116,10 +114,10 @@ namespace {
 	}
 
 	// Along the circle around the axis of symmetry: half of its length is the half size.
-	void scatterAround(const MaterialPoint& point, Real stretch)
+	void scatterAround(MpmState& state, MpmPoint& shape, Real stretch)
 	{
-		point.state->defGrad(2, 2) = stretch;
-		point.shape->halfSize[2]   = point.shape->halfSize0[2] * stretch;
+		state.defGrad(2, 2) = stretch;
+		shape.halfSize[2]   = shape.halfSize0[2] * stretch;
 	}
 
 	// Takes the internal variables of point p; its column is there.
@@ -144,8 +142,13 @@ namespace {
 		}
 	}
 
-	// Value of a column of the core for a point in YADE: take(point, model) is its value, give(point, value) puts
-	// what a step has made of it back.
+	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
+	{
+		return domainIn<Dim>(model, point.state->pos.template head<Dim>(), point.shape->halfSize.template head<Dim>());
+	}
+
+	// Value of a column of the core for a point in YADE: take(point, model) is its value, give(state, shape, value)
+	// puts what a step has made of it back.
 	template <class Cloud, class Values, class Take, class Give> struct Exchanged {
 		Values Cloud::*of;
 		Take           take;
@@ -157,7 +160,7 @@ namespace {
 	}
 
 	struct Elsewhere { };
-	constexpr auto stays = [](const MaterialPoint&, const auto&) {}; // the value in YADE stays
+	constexpr auto stays = [](MpmState&, MpmPoint&, const auto&) {}; // the value in YADE stays
 
 	// Columns that depend on materials and laws, which are gone through one after the other.
 	template <class Cloud, class Values> constexpr auto byMaterial(Values Cloud::*of) { return exchanged(of, Elsewhere(), Elsewhere()); }
@@ -183,30 +186,30 @@ namespace {
 		return std::make_tuple(
 		        exchanged(
 		                &C::position, [](Point p, Model) { return p.state->pos.template head<Dim>(); },
-		                [](Point p, const Vector& x) { p.state->pos.template head<Dim>() = x; }),
+		                [](MpmState& s, MpmPoint&, const Vector& x) { s.pos.template head<Dim>() = x; }),
 		        exchanged(
 		                &C::position0, [](Point p, Model) { return p.state->refPos.template head<Dim>(); }, stays),
 		        exchanged(
 		                &C::halfSize, [](Point p, Model model) { return domainIn(model, p); },
-		                [](Point p, const Vector& x) { p.shape->halfSize.template head<Dim>() = x; }),
+		                [](MpmState&, MpmPoint& p, const Vector& x) { p.halfSize.template head<Dim>() = x; }),
 		        exchanged(
 		                &C::halfSize0, [](Point p, Model) { return p.shape->halfSize0.template head<Dim>(); }, stays),
 		        exchanged(
 		                &C::volume0, [](Point p, Model) { return p.state->volume0; }, stays),
 		        exchanged(
 		                &C::defGrad, [](Point p, Model) { return p.state->defGrad.template topLeftCorner<Dim, Dim>(); },
-		                [](Point p, const gimpm::Mat<Dim>& F) { p.state->defGrad.template topLeftCorner<Dim, Dim>() = F; }),
+		                [](MpmState& s, MpmPoint&, const gimpm::Mat<Dim>& F) { s.defGrad.template topLeftCorner<Dim, Dim>() = F; }),
 		        exchanged(
 		                &C::hoopStretch, [](Point p, Model) { return p.state->defGrad(2, 2); }, &scatterAround),
 		        exchanged(
 		                &C::elasticStrain, [](Point p, Model) { return Tensor::from(p.state->elasticStrain); },
-		                [](Point p, const Tensor& e) { setFull(p.state->elasticStrain, e); }),
+		                [](MpmState& s, MpmPoint&, const Tensor& e) { setFull(s.elasticStrain, e); }),
 		        exchanged(
 		                &C::stress, [](Point p, Model) { return Tensor::from(p.state->stress); },
-		                [](Point p, const Tensor& s) { setFull(p.state->stress, s); }),
+		                [](MpmState& s, MpmPoint&, const Tensor& stress) { setFull(s.stress, stress); }),
 		        exchanged(
 		                &C::excessPressure, [](Point p, Model) { return p.state->excessPressure; },
-		                [](Point p, Real pressure) { p.state->excessPressure = pressure; }),
+		                [](MpmState& s, MpmPoint&, Real pressure) { s.excessPressure = pressure; }),
 		        pointLoad<Dim>(),
 		        exchanged(
 		                &C::layer, [](Point p, Model model) { return model.layers[p.state->body + 1]; }, stays),
@@ -238,12 +241,13 @@ namespace {
 		return std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); });
 	}
 
-	template <int Dim> void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+	template <int Dim>
+	void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points, const PointWriter& writer)
 	{
 		for (int a = 0; a < Dim; ++a)
 			for (size_t p = 0; grid.period[a] > 0 && p < points.size(); ++p) {
 				const Real shift = reenter(cloud.position[p][a], a, grid);
-				points[p].state->refPos[a] -= shift;
+				writer.state(points[p]).refPos[a] -= shift;
 				if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
 			}
 	}
@@ -287,31 +291,92 @@ template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& clou
 	return gimpm::united(*division.processes, std::move(cells));
 }
 
-template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known)
-{
-	gimpm::PointCloud<Dim> cloud;
-	cloud.resize(points.size());
-	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
-	if (hasMovingBox(model.boundary)) cloud.position0.resize(points.size());
-	if (!model.layers.empty()) {
-		for (const MaterialPoint& point : points)
-			requireBody(point.state->body, int(model.layers.size()) - 1, "Body #" + std::to_string(point.id));
-		cloud.layer.resize(points.size());
+namespace {
+	// Makes the columns that only some models need.
+	template <int Dim> void provideColumns(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
+	{
+		cloud.resize(points.size());
+		if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
+		if (hasMovingBox(model.boundary)) cloud.position0.resize(points.size());
+		if (!model.layers.empty()) {
+			for (const MaterialPoint& point : points)
+				requireBody(point.state->body, int(model.layers.size()) - 1, "Body #" + std::to_string(point.id));
+			cloud.layer.resize(points.size());
+		}
 	}
+
+	bool areUndrained(const std::vector<gimpm::Material>& materials)
+	{
+		return std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.waterModulus > 0; });
+	}
+
+	// True if the columns are those that a model needs, and the bodies are where they were left: YADE and its other
+	// engines do not count what they change.
+	template <int Dim> bool serves(const LeftColumns<Dim>& left, const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
+	{
+		const gimpm::PointCloud<Dim>& cloud = left.cloud;
+		if (cloud.size() != points.size() || cloud.hoopStretch.empty() == model.grid.axisymmetric || !cloud.force.empty() || !cloud.parameters.empty()
+		    || !cloud.layer.empty() || !model.layers.empty() || cloud.position0.empty() == hasMovingBox(model.boundary))
+			return false;
+		std::atomic_bool are { true };
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end && are; ++p) {
+				const MpmState&       state  = *points[p].state;
+				const gimpm::Vec<Dim> before = state.refPos.template head<Dim>();
+				are = are && state.pos.template head<Dim>() == cloud.position[p] && state.pos.allFinite() && state.refPos.allFinite()
+				        && (cloud.position0.empty() || before == cloud.position0[p]);
+			}
+		});
+		return are;
+	}
+
+	// True if there are values for all laws of a model.
+	template <int Dim> bool haveSameColumns(const LeftColumns<Dim>& left, const gimpm::Model<Dim>& model)
+	{
+		const auto isSame = [](const vector<int>& columns, const gimpm::Material& material) { return columns == material.law->columns; };
+		return std::equal(left.ofLaws.begin(), left.ofLaws.end(), model.materials.begin(), model.materials.end(), isSame)
+		        && left.cloud.excessPressure.empty() != areUndrained(model.materials);
+	}
+
+	// Settings may have changed since the step that left the columns.
+	template <int Dim> void fit(gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
+	{
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end; ++p) {
+				points[p].requireStart(cloud.stress[p].full());
+				if (!fitsPlainly<Dim>(cloud.position[p], cloud.halfSize[p], model.grid))
+					requireFit<Dim>(points[p], model.grid, model.basis, model.domains);
+				cloud.halfSize[p] = domainIn<Dim>(model, cloud.position[p], cloud.halfSize[p]);
+			}
+		});
+	}
+}
+template <int Dim>
+gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known, LeftColumns<Dim>&& left)
+{
+	const bool             mayServe = serves(left, points, model);
+	gimpm::PointCloud<Dim> cloud;
+	cloud.material.resize(points.size());
 	MaterialIndex materials(model.materials, model.shares, known);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
+	if (mayServe && haveSameColumns(left, model)) {
+		left.cloud.material = std::move(cloud.material);
+		fit(left.cloud, points, model);
+		return std::move(left.cloud);
+	}
+	++timesBodiesWereRead;
+	provideColumns(points, model, cloud);
 	gimpm::provideInternals(cloud.internals, model.materials, points.size());
 	provideParameters(points, model, cloud);
-	if (std::any_of(model.materials.begin(), model.materials.end(), [](const auto& m) { return m.waterModulus > 0; }))
-		cloud.excessPressure.resize(points.size());
+	if (areUndrained(model.materials)) cloud.excessPressure.resize(points.size());
 	std::atomic_bool hasForce { false };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		OwnMaterial ownMaterial;
 		for (size_t p = begin; p < end; ++p) {
 			const MaterialPoint& point = points[p];
 			point.requireAdmissible(Dim, model.grid.axisymmetric);
-			point.requireStart();
+			point.requireStart(point.state->stress);
 			requireFit<Dim>(point, model.grid, model.basis, model.domains);
 			forExchanged(cloud, [&](auto& column, const auto& row) { column[p] = row.take(point, model); });
 			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
@@ -327,12 +392,14 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 
 template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
-	reenterAll(cloud, grid, points);
+	const PointWriter writer;
+	reenterAll(cloud, grid, points, writer);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
-			MpmState& state = *points[p].state;
-			forExchanged(cloud, [&](const auto& column, const auto& row) { row.give(points[p], column[p]); });
+			MpmState& state = writer.state(points[p]);
+			MpmPoint& shape = writer.shape(points[p]);
+			forExchanged(cloud, [&](const auto& column, const auto& row) { row.give(state, shape, column[p]); });
 			state.volume = cloud.volume0[p] * cloud.volumeRatio(p);
 			if (cloud.excessPressure.empty()) state.excessPressure = 0; // it has drained
 			state.porePressure
@@ -348,7 +415,7 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template gimpm::PointCloud<Dim> centresOnGrid(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);                                                  \
 	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division&);                               \
-	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&, LeftColumns<Dim>&&);                     \
 	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \
 	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)

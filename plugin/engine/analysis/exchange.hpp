@@ -5,6 +5,7 @@
 #include "core/stepping/model.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include <atomic>
 
 namespace yade {
 
@@ -26,9 +27,19 @@ template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, con
 
 using MaterialList = vector<const MpmMaterial*>;
 
-// Copies the points and adds their materials to the model, those that are `known` first. std::invalid_argument names
+// Columns of points as a step has left them, while nobody has changed values of the points.
+template <int Dim> struct LeftColumns {
+	gimpm::PointCloud<Dim> cloud {};
+	vector<vector<int>>    ofLaws {}; // columns of internal variables, for each material
+};
+
+inline std::atomic_long timesBodiesWereRead { 0 }; // by gather()
+
+// Copies the points and adds their materials to the model, those that are `known` first; begins with columns that were
+// left, if they are those of this model and the bodies are where the step has left them. std::invalid_argument names
 // the body that cannot be computed with.
-template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList& known = {});
+template <int Dim>
+gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList& known = {}, LeftColumns<Dim>&& left = {});
 
 // A place beyond the period of the grid re-enters it on the other side; returns by how much it has moved back [m], 0
 // where it has not.

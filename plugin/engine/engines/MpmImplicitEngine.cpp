@@ -191,6 +191,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(warnings.empty() ? "" : warnings.front());
+	if (job.model.division->isWhole()) columns.keep(std::move(job.cloud), job.model.materials);
 }
 
 // Cells follow what moves, before anything is asked about them.
@@ -296,7 +297,7 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 		known          = materialsOfAll(*scene, points, *model.processes);
 	}
 	requireSeconds(*this, points);
-	to.cloud = gather(points, model, known);
+	to.cloud = gather(points, model, known, columns.take<Dim>());
 	if (areKnown) plausibility.know(to.cloud); // some have come from another process
 	if (!model.division->isWhole() && hasQuestions()) agreement.meet(*this);
 }
@@ -441,6 +442,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 		const gimpm::Stopwatch watch(scattering);
 		if (job.moving) job.moving->reach(job, outcome);
 		scatter(job.cloud, job.model.grid, points);
+		columns.wrote();
 		for (const auto& condition : job.conditions)
 			condition->reach(outcome);
 	}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "engine/analysis/analysis.hpp"
+#include "engine/analysis/kept_columns.hpp"
 #include "engine/conditions/load_curves.hpp"
 #include "engine/engines/PeriodicCounters.hpp"
 #include "engine/engines/job.hpp"
@@ -121,6 +122,7 @@ public:
 	long              runs() const override { return nDone; }
 
 	const vector<MaterialPoint>& pointsOfLastRun() const override { return points; }
+	const KeptColumns&           keptColumns() const override { return columns; }
 
 	static bool areContacts(const vector<shared_ptr<MpmCondition>>&);
 	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
@@ -173,6 +175,7 @@ private:
 	Splitting                           splitting;
 	Sticking                            sticking;
 	Distribution                        distribution;
+	KeptColumns                         columns;
 	mutable boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it
 };

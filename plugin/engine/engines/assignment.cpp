@@ -92,12 +92,14 @@ namespace {
 
 		void assignTo(const MaterialPoint& p) const
 		{
+			const PointWriter writer;
+			MpmState&         state = writer.state(p);
 			for (const auto& [variable, value] : internals)
-				p.state->setInternal(variable->name, value);
-			p.state->elasticStrain = elasticStrain;
-			p.state->stress        = stress;
-			p.state->volume        = volume;
-			p.shape->halfSize      = halfSize;
+				state.setInternal(variable->name, value);
+			state.elasticStrain      = elasticStrain;
+			state.stress             = stress;
+			state.volume             = volume;
+			writer.shape(p).halfSize = halfSize;
 		}
 	};
 

@@ -135,10 +135,11 @@ template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, const StepOutcom
 {
 	const auto& points = step.points;
 	addWork(job, step);
+	const PointWriter writer { PointWriter::OfResults() };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
-			points[p].state->vel.template head<Dim>()          = motion->velocity[p];
-			points[p].state->acceleration.template head<Dim>() = motion->acceleration[p];
+			writer.state(points[p]).vel.template head<Dim>()          = motion->velocity[p];
+			writer.state(points[p]).acceleration.template head<Dim>() = motion->acceleration[p];
 		}
 	});
 }

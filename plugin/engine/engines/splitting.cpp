@@ -223,10 +223,12 @@ namespace {
 		// On the grid: in its period, and with the domain that a step would give it.
 		void settle(const MaterialPoint& half) const
 		{
+			const PointWriter writer;
+			MpmState&         state = writer.state(half);
 			for (int a = 0; a < Dim; ++a)
-				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
+				state.refPos[a] -= reenter(state.pos[a], a, job.model.grid);
 			fitDomain(half, job.model.grid, job.model.domains);
-			half.shape->radius *= std::pow(0.5, 1. / Dim);
+			writer.shape(half).radius *= std::pow(0.5, 1. / Dim);
 		}
 
 		void updateCloud()

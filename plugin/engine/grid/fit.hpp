@@ -9,6 +9,13 @@
 
 namespace yade {
 
+// True if a point is on a grid without axis and period, and its domain not too large for it, as of nearly all.
+template <int Dim> bool fitsPlainly(const gimpm::Vec<Dim>& position, const gimpm::Vec<Dim>& halfSize, const gimpm::Grid<Dim>& grid)
+{
+	return !grid.axisymmetric && !grid.isPeriodic() && ((position - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit
+	        && halfSize.maxCoeff() <= 0.5 * gimpm::largestCell(grid);
+}
+
 // std::invalid_argument names the body that does not.
 template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
 

@@ -3,6 +3,7 @@
 #include "core/grid/coverage.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/analysis/cells_by_size.hpp"
+#include "engine/analysis/kept_columns.hpp"
 #include "engine/messages/failures.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/parallel.hpp"
@@ -30,11 +31,15 @@ namespace {
 	template <int Dim> gimpm::Coverage coverageIn(const Analysis& engine)
 	{
 		const auto&                  points = engine.pointsOfLastRun();
+		const auto*                  kept   = engine.keptColumns().cloud<Dim>(); // in memory one after the other
+		const gimpm::Vec<Dim>        origin = engine.grid->origin.template head<Dim>();
 		std::vector<gimpm::Vec<Dim>> centres(points.size()), halfLengths(points.size());
 		inRanges(points.size(), [&](size_t begin, size_t end) {
 			for (size_t p = begin; p < end; ++p) {
-				centres[p]     = ((points[p].state->pos - engine.grid->origin) / engine.grid->cellSize).template head<Dim>();
-				halfLengths[p] = (points[p].shape->halfSize / engine.grid->cellSize).template head<Dim>();
+				const gimpm::Vec<Dim> x    = kept ? kept->position[p] : gimpm::Vec<Dim>(points[p].state->pos.template head<Dim>());
+				const gimpm::Vec<Dim> half = kept ? kept->halfSize[p] : gimpm::Vec<Dim>(points[p].shape->halfSize.template head<Dim>());
+				centres[p]                 = (x - origin) / engine.grid->cellSize;
+				halfLengths[p]             = half / engine.grid->cellSize;
 			}
 		});
 		return gimpm::coverage<Dim>(centres, halfLengths);

@@ -87,10 +87,10 @@ void MaterialPoint::requireAdmissible(int dim, bool isRing) const
 	}
 }
 
-void MaterialPoint::requireStart() const
+void MaterialPoint::requireStart(const Matrix3r& stress) const
 {
 	try {
-		material->requireStart(state->stress);
+		material->requireStart(stress);
 	} catch (const std::invalid_argument& error) {
 		refuse(id, error.what());
 	}
@@ -157,7 +157,10 @@ void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int
 {
 	const BodiesLock     lock(scene);
 	const BodyContainer& bodies = *scene.bodies;
-	if (!points.empty() && areStill(points, bodies, mask)) return;
+	if (!points.empty()) {
+		if (areStill(points, bodies, mask)) return;
+		PointWriter();
+	}
 	size_t n = 0;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];

@@ -6,22 +6,23 @@
 #include "engine/materials/refusals.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/points/MpmState.hpp"
+#include <atomic>
 
 namespace yade {
 
 // Keeps its parts alive when the script erases the body while the scene runs in the background.
 struct MaterialPoint {
-	Body::id_t              id;
-	shared_ptr<MpmPoint>    shape;
-	shared_ptr<MpmState>    state;
-	shared_ptr<MpmMaterial> material;
+	Body::id_t                 id;
+	shared_ptr<const MpmPoint> shape; // whoever changes values takes a PointWriter
+	shared_ptr<const MpmState> state;
+	shared_ptr<MpmMaterial>    material;
 
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3), in two of them
 	// as a ring or in plane strain. Its material is not looked at.
 	void requireAdmissible(int dim, bool isRing) const;
 
-	// std::invalid_argument unless its material admits that a step begins from its state.
-	void requireStart() const;
+	// std::invalid_argument unless its material admits that a step begins from its stress.
+	void requireStart(const Matrix3r& stress) const;
 
 	// True if it is where it was filled, as it was then.
 	bool isUnmoved() const { return state->pos == state->refPos && state->defGrad.isIdentity(0); }
@@ -39,6 +40,25 @@ struct MaterialPoint {
 	int materialIndex(const Scene&) const;
 };
 
+// Access to values of points, for those who change them. Each is counted: an engine begins a step with the columns that
+// its last one has left, as long as nobody else has changed what is in them.
+class PointWriter {
+public:
+	PointWriter() { ++made; }
+
+	// For results that no column of the core begins with.
+	struct OfResults { };
+	explicit PointWriter(OfResults) { }
+
+	MpmState& state(const MaterialPoint& point) const { return const_cast<MpmState&>(*point.state); }
+	MpmPoint& shape(const MaterialPoint& point) const { return const_cast<MpmPoint&>(*point.shape); }
+
+	static long count() { return made; }
+
+private:
+	static inline std::atomic_long made { 0 };
+};
+
 // True if an engine with this mask is to read the body: 0 and -1 mean all, also a body whose groupMask has no bits.
 inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & Body::mask_t(mask)) != Body::mask_t(0); }
 
@@ -47,7 +67,8 @@ inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask =
 // for material points only.
 vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
 
-// The same, from those of before, which are kept as far as they are still there, which is quicker.
+// The same, from those of before, which are kept as far as they are still there, which is quicker. That they are others
+// counts as a change of values.
 void updateMaterialPoints(vector<MaterialPoint>&, const Scene&, int mask);
 
 } // namespace yade

@@ -43,25 +43,36 @@ namespace {
 		};
 		return { name, unit, label, width, false, uses, get, nullptr };
 	}
-	template <class Of> PointColumn given(const char* name, const char* unit, const char* label, unsigned uses, Of of)
+	// `member`, or a function of the object, is a reference to the value in the state, or in the shape.
+	template <class Member> PointColumn given(const char* name, const char* unit, const char* label, unsigned uses, Member member)
 	{
-		PointColumn column = result(name, unit, label, uses, of);
+		const auto of = [member](auto& state, auto& shape) -> auto&
+		{
+			if constexpr (std::is_invocable_v<Member, MpmState&>) return std::invoke(member, state);
+			else
+				return std::invoke(member, shape);
+		};
+		PointColumn column = result(name, unit, label, uses, [of](Point p) { return of(*p.state, *p.shape); });
 		column.set         = [of](Point p, const Real* from) {
-                        using T = std::decay_t<decltype(of(p))>;
-                        if constexpr (std::is_same_v<T, Vector3r>) of(p) = Eigen::Map<const Vector3r>(from);
+                        const PointWriter writer;
+                        auto&             to = of(writer.state(p), writer.shape(p));
+                        if constexpr (std::is_same_v<decltype(to), Vector3r&>) to = Eigen::Map<const Vector3r>(from);
                         else
-                                of(p) = Eigen::Map<const RowByRow>(from);
+                                to = Eigen::Map<const RowByRow>(from);
 		};
 		return column;
 	}
+
+	Vector3r& position(const MpmState& state) { return state.pos; } // no member to point to: State has it by reference
 
 	// Velocity, which begins a motion if it is given: the next step finds the acceleration that goes with it.
 	PointColumn velocity()
 	{
 		PointColumn column = result("velocity", "m/s", "velocity", arrays | vtk | ofMotion, [](Point p) { return p.state->vel; });
 		column.set         = [](Point p, const Real* from) {
-                        p.state->vel = Eigen::Map<const Vector3r>(from);
-                        p.state->acceleration.setZero();
+                        MpmState& state = PointWriter().state(p);
+                        state.vel       = Eigen::Map<const Vector3r>(from);
+                        state.acceleration.setZero();
 		};
 		return column;
 	}
@@ -71,8 +82,9 @@ namespace {
 		PointColumn column
 		        = result("excessPressure", "Pa", "excess pore pressure", arrays | vtk | ofPores, [](Point p) { return p.state->excessPressure; });
 		column.set = [](Point p, const Real* from) {
-			p.state->excessPressure = *from;
-			p.state->saturation     = std::numeric_limits<Real>::quiet_NaN(); // that of the pressure
+			MpmState& state      = PointWriter().state(p);
+			state.excessPressure = *from;
+			state.saturation     = std::numeric_limits<Real>::quiet_NaN(); // that of the pressure
 		};
 		return column;
 	}
@@ -92,7 +104,7 @@ namespace {
 				*to++             = value ? *value : initialValue(*p, variable);
 			}
 		};
-		const auto set = [&variable](Point p, const Real* from) { p.state->setInternal(variable.name, *from); };
+		const auto set = [&variable](Point p, const Real* from) { PointWriter().state(p).setInternal(variable.name, *from); };
 		return { variable.name, variable.unit, variable.description, 1, false, arrays | vtk, get, set, &variable };
 	}
 
@@ -110,7 +122,7 @@ namespace {
                         for (; p != last; ++p)
                                 *to++ = parameterOf(*p, name);
 		};
-		const auto set = [name](Point p, const Real* from) { p.state->setParameter(name, *from); };
+		const auto set = [name](Point p, const Real* from) { PointWriter().state(p).setParameter(name, *from); };
 		return { name, of.unit, of.label, 1, false, arrays | vtk, get, set, nullptr, true };
 	}
 
@@ -141,16 +153,16 @@ namespace {
 	{
 		vector<PointColumn> columns {
 			integer("id", arrays | vtk, [](Point p, const Scene&) { return p.id; }),
-			given("pos", "m", "position", arrays, [](Point p) -> Vector3r& { return p.state->pos; }),
-			given("pos0", "m", "initial position", arrays, [](Point p) -> Vector3r& { return p.state->refPos; }),
+			given("pos", "m", "position", arrays, &position),
+			given("pos0", "m", "initial position", arrays, &MpmState::refPos),
 			result("halfSize", "m", "half size", arrays, [](Point p) { return p.shape->halfSize; }),
 			result("halfSize0", "m", "initial half size", arrays, [](Point p) { return p.shape->halfSize0; }),
 			velocity(),
 			result("acceleration", "m/s²", "acceleration", arrays | vtk | ofMotion, [](Point p) { return p.state->acceleration; }),
-			given("force", "N", "point load", arrays, [](Point p) -> Vector3r& { return p.state->force; }),
-			given("stress", "Pa", "stress $\\sigma$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->stress; }),
-			given("defGrad", "-", "deformation gradient $F$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->defGrad; }),
-			given("elasticStrain", "-", "elastic strain $\\varepsilon$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->elasticStrain; }),
+			given("force", "N", "point load", arrays, &MpmState::force),
+			given("stress", "Pa", "stress $\\sigma$", arrays | vtk, &MpmState::stress),
+			given("defGrad", "-", "deformation gradient $F$", arrays | vtk, &MpmState::defGrad),
+			given("elasticStrain", "-", "elastic strain $\\varepsilon$", arrays | vtk, &MpmState::elasticStrain),
 			result("volume", "m³", "volume", arrays | vtk, [](Point p) { return p.state->volume; }),
 		};
 		columns.push_back(result("porePressure", "Pa", "pore pressure", arrays | vtk | ofWater, [](Point p) { return p.state->porePressure; }));
@@ -174,7 +186,7 @@ namespace {
 			return (p.state->stress - meanStress(p) * Matrix3r::Identity()).norm();
 		}));
 		columns.push_back(result("totalStress", "Pa", "total stress", derived | vtk | ofWater, &totalStress));
-		columns.push_back(given("color", "-", "colour", 0, [](Point p) -> Vector3r& { return p.shape->color; }));
+		columns.push_back(given("color", "-", "colour", 0, &MpmPoint::color));
 		return columns;
 	}
 }

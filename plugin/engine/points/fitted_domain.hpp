@@ -18,10 +18,11 @@ template <int Dim> Vector3r grownDomain(const MaterialPoint& point, const gimpm:
 // Gives the point the domain that a step would give it: no larger than its cell.
 template <int Dim> void fitDomain(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::DomainRule rule)
 {
-	const Vector3r size                        = grownDomain(point, grid, rule);
-	const Real     limit                       = gimpm::largestHalf<Dim>(grid, point.state->pos.template head<Dim>());
-	point.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
-	if (grid.axisymmetric) point.shape->halfSize[2] = size[2];
+	const Vector3r size       = grownDomain(point, grid, rule);
+	const Real     limit      = gimpm::largestHalf<Dim>(grid, point.state->pos.template head<Dim>());
+	Vector3r&      half       = PointWriter().shape(point).halfSize;
+	half.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
+	if (grid.axisymmetric) half[2] = size[2];
 }
 
 // Section of the initial domain: its area in the plane, in space its volume.

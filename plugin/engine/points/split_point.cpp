@@ -77,15 +77,17 @@ Vector3r toUpperHalf(const MaterialPoint& point, int axis) { return point.state-
 
 shared_ptr<Body> halve(const Body& body, const MaterialPoint& point, int axis, bool isRing)
 {
-	const Vector3r offset = toUpperHalf(point, axis);
-	point.state->splits += 1;
+	const PointWriter writer;
+	MpmState&         lower  = writer.state(point);
+	const Vector3r    offset = toUpperHalf(point, axis);
+	lower.splits += 1;
 	const auto upper = copyOf(body, point);
 	auto&      state = static_cast<MpmState&>(*upper->state);
 	state.parent     = body.id;
 	const Real part  = isRing ? (1 + offset[0] / point.state->pos[0]) / 2 : 0.5;
-	takePart(*point.state, state, std::max(part, 1 - part)); // the larger one
-	if (part < 0.5) exchangeAmounts(*point.state, state);
-	moveHalf(*point.state, *point.shape, axis, -1, offset, isRing);
+	takePart(lower, state, std::max(part, 1 - part)); // the larger one
+	if (part < 0.5) exchangeAmounts(lower, state);
+	moveHalf(lower, writer.shape(point), axis, -1, offset, isRing);
 	moveHalf(state, static_cast<MpmPoint&>(*upper->shape), axis, 1, offset, isRing);
 	return upper;
 }

@@ -83,8 +83,9 @@ Real UnitedHalves::lostEnergy(const MaterialPoint& lower, const MaterialPoint& u
 
 void UnitedHalves::assignTo(const MaterialPoint& lower, const MaterialPoint& upper) const
 {
-	MpmState&       l = *lower.state;
-	const MpmState& u = *upper.state;
+	const PointWriter writer;
+	MpmState&         l = writer.state(lower);
+	const MpmState&   u = *upper.state;
 	l.pos = centre, l.vel = velocity, l.defGrad = defGrad, l.elasticStrain = elasticStrain, l.stress = stress;
 	l.refPos           = (l.refPos + u.refPos) / 2;
 	l.acceleration     = mean(l.acceleration, u.acceleration, share);
@@ -97,8 +98,8 @@ void UnitedHalves::assignTo(const MaterialPoint& lower, const MaterialPoint& upp
 		l.setInternal(variable->name, value);
 	MpmState::amounts([&](auto member) { l.*member += u.*member; });
 	l.splits -= 1;
-	lower.shape->halfSize0 = halfSize0;
-	lower.shape->radius *= std::pow(2, 1. / dim);
+	writer.shape(lower).halfSize0 = halfSize0;
+	writer.shape(lower).radius *= std::pow(2, 1. / dim);
 }
 
 } // namespace yade

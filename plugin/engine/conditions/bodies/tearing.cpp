@@ -69,11 +69,12 @@ namespace {
 		// Gives the parts after the first one bodies.
 		void tear(const vector<vector<int>>& parts, const vector<shared_ptr<MpmBodyContact>>& contacts)
 		{
-			vector<int> partOfPoint(points.size(), 0);
+			const PointWriter writer;
+			vector<int>       partOfPoint(points.size(), 0);
 			for (size_t part = 0; part < parts.size(); ++part) {
 				numbers.push_back(part == 0 ? body : int(grid.bodies.size()));
 				for (const int i : parts[part])
-					partOfPoint[i] = int(part), points[i]->state->body = numbers.back();
+					partOfPoint[i] = int(part), writer.state(*points[i]).body = numbers.back();
 				if (part > 0) grid.bodies.push_back(newBody());
 			}
 			const vector<int> partOfPiece = partsOfPieces(partOfPoint);

@@ -303,8 +303,9 @@ template <int Dim> void Flows<Dim>::keepNodes()
 
 template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 {
+	const PointWriter writer { PointWriter::OfResults() };
 	for (size_t p = 0; p < step.points.size(); ++p) {
-		MpmState& state      = *step.points[p].state;
+		MpmState& state      = writer.state(step.points[p]);
 		state.excessPressure = water.pressure[p];
 		state.porePressure   = (std::isnan(state.porePressure) ? 0 : state.porePressure) + water.pressure[p];
 		if (water.whole) state.saturation = water.whole->saturation[p], state.pressureOnGrains = water.whole->push[p];

@@ -140,9 +140,11 @@ template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 	const auto& points    = step.points;
 	const auto& boundary  = step.model.boundary;
 	auto&       reactions = step.reactions;
+
+	const PointWriter writer { PointWriter::OfResults() };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
-			Real& sum = points[p].state->porePressure;
+			Real& sum = writer.state(points[p]).porePressure;
 			if (std::isnan(sum)) sum = 0; // else there is water that cannot leave
 			for (const auto& water : waters)
 				sum += water.porePressure[p];
