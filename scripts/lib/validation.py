@@ -35,7 +35,7 @@ runs = {
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
                 *(f'deep.py --cells 4 --halvings 1 --rigidity {which}' for which in ('50', '200', '500', '200 --rough 1')), 'cptu.py',
-                'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
+                'chamber.py', 'chamber.py --law constant', 'chamber.py --pressure 400e3 --densities "0.4 0.8"', 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
         'adaptive': ['adaptive.py', 'slip.py'],
         'grains_on_soil': ['grains_on_soil.py', 'plough_alone.py --cell 0.05'],
@@ -46,6 +46,7 @@ runs = {
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
         'footings': ['footings.py', 'transcona.py'],
+        'dams': ['lower.py', 'upper.py'],
         'tasks': sorted(name for name in os.listdir(os.path.join(examples, 'tasks')) if name.endswith('.py')),
 }
 
@@ -62,7 +63,7 @@ groups = {
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
         'Beside other programs': ['peers'],
-        'Field': ['footings'],
+        'Field': ['footings', 'dams'],
 }
 studiesOnly = 'peers',  # folders of studies, the others of examples
 

@@ -770,3 +770,26 @@ def test_liquefaction(yade):
 		lost = sum(map(float, taken))
 		assert abs(float(given) + float(weight) + float(elastic) - lost) < 0.05 * lost, run.stdout
 	assert (run.folder / 'out/earthquake/liquefaction.png').stat().st_size > 20000
+
+
+def test_slide_of_a_dam(yade):
+	"""Cells of 4 m give the height that was left and the run-out of the page."""
+	run = yade(root / 'examples' / 'dams' / 'lower.py', '--cellSize', 4)
+	loss, front = (numbers(rf'{what}: (\S+) m, measured', run.stdout)[0] for what in ('loss of height', 'run-out beyond the toe'))
+	assert abs(loss - 8.5) < 0.3 and abs(front - 47) < 3, run.stdout
+	assert (run.folder / 'out/lower/lower.png').stat().st_size > 20000
+
+
+def test_dam_in_an_earthquake(yade):
+	"""A short record moves the upper dam little on coarse cells; water that stands higher behind it makes it move more."""
+	ways = [numbers(r'dam: (\S+) m, measured', yade(root / 'examples' / 'dams' / 'upper.py', '--cellSize', 6, '--seeds', 1, '--seconds', 3, '--water', water).stdout)[0] for water in (3, 9)]
+	assert 0 < 2 * ways[0] < ways[1] < 1.83, ways
+
+
+def test_cone_in_a_chamber(yade):
+	"""Resistance after three of the ten radii of the page; Mohr-Coulomb with one modulus is stiffer than hardening soil."""
+	for law, expected in ('hardening', 4.85), ('constant', 6.62):
+		run = yade(root / 'examples' / 'penetration' / 'chamber.py', '--densities', 0.6, '--depth', 3, '--law', law)
+		found, measured = numbers(r'density 0.6: (\S+) MPa from .* measured (\S+) MPa', run.stdout)
+		assert measured == 8.39 and abs(found / expected - 1) < 0.03
+	assert (run.folder / 'out/chamber/chamber.png').stat().st_size > 20000
