@@ -24,8 +24,8 @@ def _grain(position, radius, moves=True):
 	return grain
 
 
-def _materials():
-	O.materials.append(CohFrictMat(young=young, poisson=0.3, density=density, frictionAngle=0, normalCohesion=adhesion, shearCohesion=adhesion, fragile=False, label='grains'))
+def _materials(friction=0):
+	O.materials.append(CohFrictMat(young=young, poisson=0.3, density=density, frictionAngle=friction, normalCohesion=adhesion, shearCohesion=adhesion, fragile=False, label='grains'))
 	O.materials.append(FrictMat(young=young, poisson=0.3, density=density, frictionAngle=0, label='wall'))
 
 
@@ -48,6 +48,12 @@ def makeAdhesive():
 		if isinstance(contact.phys, CohFrictPhys): contact.phys.initCohesion = True
 
 
+def makeRough(friction):
+	"""Give grains and their contacts a friction angle [rad]."""
+	O.materials['grains'].frictionAngle = friction
+	for contact in O.interactions: contact.phys.tangensOfFrictionAngle = np.tan(friction)
+
+
 def makeDuctile(unpMax):
 	"""Contacts in tension flow at their strength until they are pulled apart by *unpMax* [m]; YADE would break them at once."""
 	for contact in O.interactions:
@@ -55,10 +61,11 @@ def makeDuctile(unpMax):
 
 
 class Layer:
-	"""A periodic layer of grains, about *width* by *height* [m], packed without adhesion, which is then switched on."""
+	"""A periodic layer of grains, about *width* by *height* [m], packed without adhesion and friction. Then adhesion is switched on, or *friction* [rad] without adhesion."""
 
-	def __init__(self, width, height, diameter, seed=1):
+	def __init__(self, width, height, diameter, seed=1, friction=0):
 		self.diameter = self.thickness = diameter
+		self.friction = friction
 		self.depth = 4 * diameter # depth of the periodic cell
 		O.reset()
 		O.periodic = True
@@ -79,8 +86,9 @@ class Layer:
 		self.density = sum(b.state.mass for b in O.bodies) / (self.width * self.height * self.thickness)
 		O.cell.velGrad = Matrix3.Zero
 		O.cell.trsf = Matrix3.Identity
-		O.engines = _engines(diameter, adhesive=True)
-		makeAdhesive()
+		O.engines = _engines(diameter, adhesive=not friction)
+		if friction: makeRough(friction)
+		else: makeAdhesive()
 		O.run(1000, wait=True)
 
 	def _control(self, goal, pressures, rates):
@@ -112,7 +120,7 @@ class Layer:
 		The pressure is kept to 2 %, by which the stress along y is set right. Volumetric strains are there, too, but not for laws whose flow keeps the volume.
 		"""
 		O.saveTmp()
-		O.engines = _engines(self.diameter, adhesive=True, further=[self._control((pressure, 1.5 * strain), 0b001, (0.5, rate))])
+		O.engines = _engines(self.diameter, adhesive=not self.friction, further=[self._control((pressure, 1.5 * strain), 0b001, (0.5, rate))])
 		rows = []
 		for _ in range(readings):
 			for _ in range(round(strain / readings / rate / O.dt)):
@@ -167,3 +175,23 @@ def grainArrays(thickness):
 	        'halfSize': np.array([[b.shape.radius] * 3 for b in moving]),
 	        'force': np.array([tensors[b.id][1, 1] * 4 / 3 * np.pi * b.shape.radius**3 for b in moving]) / thickness,
 	}
+
+
+def columnScene(layer, height, length, front, g):
+	"""Replace the scene by a column of rough grains, *length* by *height* [m], out of a layer, at rest under gravity *g* between smooth walls; the base is as cutScene's. Takes the right wall away. Returns the ids of the grains."""
+	x, y, radius = layer.grains().T
+	diameter, width = layer.diameter, layer.width
+	O.reset()
+	_materials(layer.friction)
+	O.dt = 0.4 * np.sqrt(density / young) * radius.min()
+	base, ids = y < diameter, []
+	for shift in np.arange(-width, front, width):
+		O.bodies.append([_grain((i + shift, j - diameter, 0), r, moves=False) for i, j, r in zip(x[base], y[base], radius[base]) if -diameter < i + shift < front])
+	inside = ~base & (x > radius) & (x < length - radius) & (y < height + diameter)
+	ids = O.bodies.append([_grain((i, j - diameter, 0), r) for i, j, r in zip(x[inside], y[inside], radius[inside])])
+	left, right = (O.bodies.append(utils.wall(at, axis=0, sense=sense, material='wall')) for at, sense in ((0, 1), (length, -1)))
+	O.engines = _engines(diameter, adhesive=False, gravity=(0, -g, 0))
+	while O.iter < 3000 or max(O.bodies[i].state.vel.norm() for i in ids) > 0.02 * np.sqrt(g * diameter): O.run(500, wait=True)
+	O.bodies.erase(right)
+	O.engines[-1].damping, O.engines[-1].dampGravity = 0.05, False
+	return ids

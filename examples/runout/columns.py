@@ -17,10 +17,10 @@ atRest = 2e-3  # kinetic energy over the work of gravity so far
 
 
 def makeSand(height, options):
-	"""The column, a scene of its own; returns the engine. Options are those of runout.py."""
+	"""The column, a scene of its own; returns the engine. Options are those of runout.py; *law* there has the angles of another law [rad]."""
 	O.reset()
-	O.materials.append(MpmMohrCoulombMat(young=500 * density * g * L, poisson=0.3, density=density, cohesion=1e-3 * density * g * L,
-	                                     frictionAngle=np.arcsin(np.tan(radians(options.repose))), dilationAngle=0, label='sand'))
+	law = getattr(options, 'law', None) or dict(frictionAngle=np.arcsin(np.tan(radians(options.repose))), dilationAngle=0)
+	O.materials.append(MpmMohrCoulombMat(young=500 * density * g * L, poisson=0.3, density=density, cohesion=1e-3 * density * g * L, label='sand', **law))
 	grid = MpmGrid(cellSize=min(L, height) / options.cells)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (L, height, 1)), grid, options.pointsPerCell, 'sand'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]

@@ -793,3 +793,14 @@ def test_cone_in_a_chamber(yade):
 		found, measured = numbers(r'density 0.6: (\S+) MPa from .* measured (\S+) MPa', run.stdout)
 		assert measured == 8.39 and abs(found / expected - 1) < 0.03
 	assert (run.folder / 'out/chamber/chamber.png').stat().st_size > 20000
+
+
+def test_dry_grains_beside_a_continuum(yade):
+	"""Few grains: a strength between that at large strain and the peak, and a run-out of the same size."""
+	run = yade(root / 'examples' / 'mpm_vs_dem' / 'dry_grains.py', '--seeds', 1, '--grains', 10, '--sample', 10, '--pressures', '10e3', '--strain', 0.06, '--aspects', 1, '--cells', 5)
+	peak, last = numbers(r'grains: (\S+) \+- \S+ degrees at the peak, (\S+)', run.stdout)
+	assert 25 < last < peak < 45
+	grains, = numbers(r'DEM: run-out (\S+)', run.stdout)
+	found = [float(out) for out in re.findall(r'MPM, .*?: run-out (\S+)', run.stdout)]
+	assert len(found) == 3 and all(0.5 < out / grains < 2 for out in found), run.stdout
+	assert (run.folder / 'out/dry_grains/dry_grains.png').stat().st_size > 20000
