@@ -42,19 +42,25 @@ template <int Dim> std::vector<Key> cellsOf(const std::vector<Key>& nodes, const
 
 } // namespace
 
-template <int Dim> Parting<Dim>::Bits::Bits(std::vector<Key> keys)
+template <int Dim> Parting<Dim>::Bits::Bits(std::vector<Key> keys, int bitsOfBodies)
 {
-	std::sort(keys.begin(), keys.end(), [](Key a, Key b) { return in(0, a) < in(0, b); });
+	const auto ofBody = [&](Key key) { return in(Grid<Dim>::layer(key) & bitsOfBodies, key); };
+	std::sort(keys.begin(), keys.end(), [&](Key a, Key b) { return ofBody(a) < ofBody(b); });
 	for (const Key key : keys) {
-		if (keys_.empty() || keys_.back() != in(0, key)) keys_.push_back(in(0, key)), bits_.push_back(0);
-		bits_.back() |= Grid<Dim>::layer(key);
+		if (keys_.empty() || keys_.back() != ofBody(key)) keys_.push_back(ofBody(key)), bits_.push_back(0);
+		bits_.back() |= Grid<Dim>::layer(key) & ~bitsOfBodies;
 	}
 }
 
 template <int Dim>
 Parting<Dim>::Parting(
-        std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement, std::vector<LeakyCut<Dim>> leaks)
-        : nodes_(own), cells_(cellsOf(own, refinement.get())), layerAt_(std::move(layerAt)), refinement_(std::move(refinement)), leaks_(std::move(leaks))
+        std::vector<Key> own, LayerAt layerAt, std::shared_ptr<const Refinement<Dim>> refinement, std::vector<LeakyCut<Dim>> leaks, int bitsOfBodies)
+        : bitsOfBodies_(bitsOfBodies)
+        , nodes_(own, bitsOfBodies)
+        , cells_(cellsOf(own, refinement.get()), bitsOfBodies)
+        , layerAt_(std::move(layerAt))
+        , refinement_(std::move(refinement))
+        , leaks_(std::move(leaks))
 {
 }
 

@@ -22,24 +22,32 @@ template <int Dim> struct LeakyCut {
 /// The others are tied to the nodes of layer 0 in their places, and a cell without functions of such nodes is the one
 /// of layer 0: so soil is one body around the ends of the line. Beside several lines a layer has the bits of all of
 /// them, and a node, or a cell, is the one of those bits of the lines that cut it. In a refined grid hanging nodes are
-/// tied within their layer first.
+/// tied within their layer first. Where bodies of points have layers, the lowest bits of a layer are those of its body,
+/// whose nodes are apart everywhere.
 template <int Dim> class Parting {
 public:
-	/// Keys of the nodes that lines cut, each in the layer of a line, none of them hanging; and the layer of a
-	/// point by its position. Null: the cells are equal.
-	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt, std::shared_ptr<const Refinement<Dim>> refinement = {},
-	        std::vector<LeakyCut<Dim>> leaks = {});
+	/// Layer at a position of soil: of that of a body, or, where its layer is -1, of any.
+	using LayerAt = std::function<int(const Vec<Dim>& position, int ofBody)>;
 
-	int                               layerAt(const Vec<Dim>& position) const { return layerAt_(position); }
+	/// Keys of the nodes that lines cut, each in the layer of a line, none of them hanging; and the layer of a
+	/// point by its position. Null: the cells are equal. `bitsOfBodies`: bits of the layers that bodies have.
+	Parting(std::vector<Key> own, LayerAt, std::shared_ptr<const Refinement<Dim>> refinement = {}, std::vector<LeakyCut<Dim>> leaks = {},
+	        int bitsOfBodies = 0);
+
+	int                               layerAt(const Vec<Dim>& position, int ofBody = -1) const { return layerAt_(position, ofBody); }
+	int                               layerOfBody(int layer) const { return layer & bitsOfBodies_; }
 	const std::vector<LeakyCut<Dim>>& leaks() const { return leaks_; }
+
+	/// The key in the layer of its body.
+	Key ofBody(Key key) const { return in(layerOfBody(Grid<Dim>::layer(key)), key); }
 
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 
 	bool isOwn(Key node) const { return Grid<Dim>::layer(node) > 0 && nodeFor(node) == node; }
 	/// The node that stands for one of a layer that does not hang.
-	Key nodeFor(Key node) const { return in(Grid<Dim>::layer(node) & nodes_.bitsOf(in(0, node)), node); }
+	Key nodeFor(Key node) const { return in(Grid<Dim>::layer(node) & (bitsOfBodies_ | nodes_.bitsOf(ofBody(node))), node); }
 	/// The cell that stands for one of a layer, in a refined grid a leaf or a part of one.
-	Key cellFor(Key cell) const { return in(Grid<Dim>::layer(cell) & bitsOf(cell), cell); }
+	Key cellFor(Key cell) const { return in(Grid<Dim>::layer(cell) & (bitsOfBodies_ | bitsOf(cell)), cell); }
 
 	/// Calls f(cell beyond a face, layer of the face) by a cell and the one beyond, in its layer: for the one that
 	/// stands for this, and those on all sides of the lines that begin there.
@@ -47,17 +55,17 @@ public:
 	{
 		const int layer = Grid<Dim>::layer(cell), there = bitsOf(beyond), begins = there & ~bitsOf(cell);
 		for (int sides = 0;; sides = (sides - begins) & begins) { // all parts of these bits
-			f(in((layer & there) | sides, beyond), layer | sides);
+			f(in((layer & (bitsOfBodies_ | there)) | sides, beyond), layer | sides);
 			if (sides == begins) return;
 		}
 	}
 
 private:
-	/// Bits of the lines that cut what keys of layer 0 stand for.
+	/// Bits of the lines that cut what keys in the layers of bodies stand for.
 	class Bits {
 	public:
-		/// Takes keys in layers of one bit.
-		explicit Bits(std::vector<Key> keys);
+		/// Takes keys in layers of one bit, beside those of bodies.
+		Bits(std::vector<Key> keys, int bitsOfBodies);
 		int bitsOf(Key key) const
 		{
 			const int found = find(keys_, key);
@@ -72,12 +80,13 @@ private:
 	/// Lines whose nodes have functions in a cell.
 	int bitsOf(Key cell) const
 	{
-		const Key first = in(0, cell);
+		const Key first = ofBody(cell);
 		return cells_.bitsOf(refinement_ ? refinement_->leafOf(first) : first);
 	}
 
+	int                                    bitsOfBodies_;
 	Bits                                   nodes_, cells_; // in a refined grid leaves
-	std::function<int(const Vec<Dim>&)>    layerAt_;
+	LayerAt                                layerAt_;
 	std::shared_ptr<const Refinement<Dim>> refinement_;
 	std::vector<LeakyCut<Dim>>             leaks_;
 };

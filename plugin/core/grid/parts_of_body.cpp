@@ -1,49 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/parts_of_body.hpp"
 #include "core/grid/cells_around.hpp"
-#include <numeric>
+#include "core/grid/disjoint_sets.hpp"
 
 namespace gimpm {
 namespace {
-
-/// Disjoint sets of numbers.
-class Sets {
-public:
-	explicit Sets(int count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
-
-	int root(int i)
-	{
-		while (above_[i] != i)
-			i = above_[i] = above_[above_[i]];
-		return i;
-	}
-	void join(int i, int j) { above_[std::max(root(i), root(j))] = std::min(root(i), root(j)); }
-
-	/// Numbers of the sets, in the order of their first members.
-	std::vector<int> numbers()
-	{
-		std::vector<int> found(above_.size()), number(above_.size(), -1);
-		for (int i = 0, next = 0; i < int(above_.size()); ++i) {
-			int& own = number[root(i)];
-			if (own < 0) own = next++;
-			found[i] = own;
-		}
-		return found;
-	}
-
-private:
-	std::vector<int> above_;
-};
-
-/// Calls f(cell) for the cells that a box reaches into.
-template <int Dim, class F> void forCellsOf(const DomainBox<Dim>& box, const Vec<Dim>& origin, double size, F&& f)
-{
-	constexpr double slack = 1e-6; // reach that counts as none [cells]
-	Index<Dim>       first, last;
-	for (int a = 0; a < Dim; ++a)
-		first[a] = int(std::floor((box.low[a] - origin[a]) / size + slack)), last[a] = int(std::floor((box.high[a] - origin[a]) / size - slack));
-	forIndicesUpTo<Dim>(first, last, f);
-}
 
 /// A box in a cell.
 using InCell = std::pair<Key, int>;
@@ -112,7 +73,7 @@ template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
 
 template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double cellSize)
 {
-	Sets       sets(int(boxes.size()));
+	DisjointSets sets(int(boxes.size()));
 	Block<Dim> block(boxes, origin, cellSize);
 	if (block.isFilled()) {
 		for (int b = 0; b < int(boxes.size()); ++b)
@@ -145,7 +106,7 @@ template <int Dim> std::vector<int> partsByTouch(const std::vector<DomainBox<Dim
 	for (int b = 0; b < int(boxes.size()); ++b)
 		centres.emplace_back(Grid<Dim>::key(((boxes[b].low + boxes[b].high) / (2 * cellSize)).array().floor().template cast<int>()), b);
 	std::sort(centres.begin(), centres.end());
-	Sets sets(int(boxes.size()));
+	DisjointSets sets(int(boxes.size()));
 	for (const auto& [cell, box] : centres)
 		forCellsAhead<Dim>(cell, [&, box = box](Key near) {
 			for (auto i = std::lower_bound(centres.begin(), centres.end(), InCell(near, -1)); i != centres.end() && i->first == near; ++i)

@@ -24,6 +24,16 @@ template <int Dim, class F> void forIndicesUpTo(const Index<Dim>& first, const I
 	}
 }
 
+/// Calls f(cell) for the cells that a box reaches into.
+template <int Dim, class F> void forCellsOf(const DomainBox<Dim>& box, const Vec<Dim>& origin, double size, F&& f)
+{
+	constexpr double slack = 1e-6; // reach that counts as none [cells]
+	Index<Dim>       first, last;
+	for (int a = 0; a < Dim; ++a)
+		first[a] = int(std::floor((box.low[a] - origin[a]) / size + slack)), last[a] = int(std::floor((box.high[a] - origin[a]) / size - slack));
+	forIndicesUpTo<Dim>(first, last, f);
+}
+
 /// Numbers of the parts that boxes belong to, counted from 0 in the order of their first boxes. Boxes that reach into
 /// the same cell or into neighbouring cells share nodes, and are of one part.
 template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>&, const Vec<Dim>& origin, double cellSize);

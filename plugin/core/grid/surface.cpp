@@ -105,18 +105,21 @@ template <int Dim> bool Surface<Dim>::isClosed() const
 	return std::all_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 2; });
 }
 
-template <int Dim> bool Surface<Dim>::isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const
+template <int Dim> bool Surface<Dim>::cuts(const Piece& piece, const Vec<Dim>& a, const Vec<Dim>& b) const
 {
 	constexpr double onEdge = 1e-9; // round-off must not let a way through where pieces meet
-	return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-		Mat<Dim> sides; // a + t (b - a) = first vertex + s_i (vertex i - first vertex)
-		sides.col(0) = a - b;
-		for (int i = 1; i < Dim; ++i)
-			sides.col(i) = vertices[piece[i]] - vertices[piece[0]];
-		// Not finite where the way is along the piece.
-		const Vec<Dim> part = sides.inverse() * (a - vertices[piece[0]]);
-		return part.minCoeff() >= -onEdge && part[0] <= 1 + onEdge && part.template tail<Dim - 1>().sum() <= 1 + onEdge;
-	});
+	Mat<Dim>         sides;         // a + t (b - a) = first vertex + s_i (vertex i - first vertex)
+	sides.col(0) = a - b;
+	for (int i = 1; i < Dim; ++i)
+		sides.col(i) = vertices[piece[i]] - vertices[piece[0]];
+	// Not finite where the way is along the piece.
+	const Vec<Dim> part = sides.inverse() * (a - vertices[piece[0]]);
+	return part.minCoeff() >= -onEdge && part[0] <= 1 + onEdge && part.template tail<Dim - 1>().sum() <= 1 + onEdge;
+}
+
+template <int Dim> bool Surface<Dim>::isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const
+{
+	return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return cuts(piece, a, b); });
 }
 
 template <int Dim> std::vector<int> Surface<Dim>::refine(double limit)

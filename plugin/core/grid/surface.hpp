@@ -40,7 +40,8 @@ template <int Dim> struct Surface {
 	/// pieces.
 	bool isClosed() const;
 
-	/// True if it cuts the way from a to b.
+	/// True if a piece, or any of them, cuts the way from a to b.
+	bool cuts(const Piece&, const Vec<Dim>& a, const Vec<Dim>& b) const;
 	bool isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const;
 
 	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of

@@ -25,7 +25,7 @@ bool meanOfNeighbours(
 template <int Dim> int numberBefore(const std::vector<Key>& nodesBefore, Key node, const Grid<Dim>& grid)
 {
 	const int same = find(nodesBefore, node);
-	return same < 0 && grid.parting ? find(nodesBefore, Parting<Dim>::in(0, node)) : same;
+	return same < 0 && grid.parting ? find(nodesBefore, grid.parting->ofBody(node)) : same;
 }
 
 } // namespace

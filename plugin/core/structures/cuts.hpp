@@ -83,7 +83,7 @@ public:
 		for (const Cut& cut : cuts_)
 			boxes_.emplace_back(cut.positions, 4 * largestCell(grid));
 	}
-	int operator()(const Vec<Dim>& position) const
+	int operator()(const Vec<Dim>& position, int /*ofBody*/) const
 	{
 		int layer = 0;
 		for (std::size_t c = 0; c < cuts_.size(); ++c)

@@ -49,7 +49,7 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		Key              key  = Grid<Dim>::key(grid.first(cell), 0, grid.parting ? grid.parting->layerAt(x) : layer);
+		Key              key  = Grid<Dim>::key(grid.first(cell), 0, grid.parting ? grid.parting->layerAt(x, layer) : layer);
 		if (grid.parting) key = grid.parting->cellFor(key);
 		return find(populated, grid.refinement ? grid.refinement->leafOf(key) : key) >= 0;
 	};

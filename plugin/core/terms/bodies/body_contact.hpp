@@ -31,6 +31,8 @@ template <int Dim> struct MeetingBody {
 	std::string  name;
 	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
+	/// In this step: layers of the pieces near folds of the body, -1 of the others; empty: it has no folds.
+	std::vector<int> layerOfPiece {};
 
 	/// Makes contact independent of the diagonals of rectangles, before the first step.
 	void divideRectangles(double cellSize)
@@ -47,7 +49,8 @@ template <int Dim> struct MeetingBody {
 	}
 };
 
-/// Two bodies that may meet, by their numbers: contact points on the one bear on pieces of the surface of the other.
+/// Two bodies that may meet, by their numbers: contact points on the one bear on pieces of the surface of the other. Of
+/// a body and itself they are on the sides of folds in the higher layers.
 template <int Dim> struct BodyMeeting {
 	int    slave = 0, master = 0;
 	double frictionCoefficient = 0;                                       ///< [-]
@@ -161,6 +164,10 @@ private:
 	bool                isInFilledJoint(const ContactPoint&) const;
 	void                addWedge(const ContactPoint&, double pressure);
 	void                begin(ContactPoint&);
+	bool                isFold(const BodyMeeting<Dim>& meeting) const { return meeting.slave == meeting.master; }
+	int                 layerOf(int body, int piece) const;
+	bool                mayTouch(const ContactPoint&, int piece) const;
+	std::vector<std::vector<int>> verticesOf(const BodyMeeting<Dim>&) const;
 	int                 wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
 	Positions           positionsAt(const Eigen::VectorXd& d) const;
 	PairPositions<Dim>  pair(const Vec<Dim>& position, int body, int piece, const Positions&) const;

@@ -52,20 +52,42 @@ template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::Vector
 /// Distance by which vertices of the two may have moved towards each other.
 template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Positions& now) const
 {
-	Vec<Dim> mean  = Vec<Dim>::Zero();
-	int      count = 0;
-	double   sum   = 0;
-	for (const int b : { meeting.slave, meeting.master })
-		for (std::size_t v = 0; v < now[b].size(); ++v)
-			mean += now[b][v] - start_[b][v], ++count;
+	Vec<Dim>   mean     = Vec<Dim>::Zero();
+	int        count    = 0;
+	double     sum      = 0;
+	const auto vertices = verticesOf(meeting);
+	const int  bodies[] = { meeting.slave, meeting.master };
+	for (int side = 0; side < 2; ++side)
+		for (const int v : vertices[side])
+			mean += now[bodies[side]][v] - start_[bodies[side]][v], ++count;
 	mean /= std::max(1, count);
-	for (const int b : { meeting.slave, meeting.master }) {
+	for (int side = 0; side < 2; ++side) {
 		double most = 0;
-		for (std::size_t v = 0; v < now[b].size(); ++v)
-			most = std::max(most, (now[b][v] - start_[b][v] - mean).norm());
+		for (const int v : vertices[side])
+			most = std::max(most, (now[bodies[side]][v] - start_[bodies[side]][v] - mean).norm());
 		sum += most;
 	}
 	return sum;
+}
+
+/// Numbers of the vertices of the slave and of the master: all, or those on the sides of folds.
+template <int Dim> std::vector<std::vector<int>> BodyContact<Dim>::verticesOf(const BodyMeeting<Dim>& meeting) const
+{
+	std::vector<std::vector<int>> vertices(2);
+	if (!isFold(meeting)) {
+		for (const int side : { 0, 1 })
+			vertices[side].resize(start_[side == 0 ? meeting.slave : meeting.master].size());
+		for (auto& numbers : vertices)
+			std::iota(numbers.begin(), numbers.end(), 0);
+		return vertices;
+	}
+	const auto& body = system_.bodies[meeting.slave];
+	for (std::size_t i = 0; i < facets_[meeting.slave].pieces.size() && !body.layerOfPiece.empty(); ++i) {
+		const int layer = body.layerOfPiece[facets_[meeting.slave].whole[i]];
+		for (const int v : facets_[meeting.slave].pieces[i])
+			if (layer >= 0) vertices[layer == body.layer].push_back(v);
+	}
+	return vertices;
 }
 
 /// True if the boxes around the surfaces of two bodies are farther apart than a reach as the step begins.
@@ -87,7 +109,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d)
 	const ContactState& state  = contactAt(d);
 	const char*         advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
 	for (const auto& meeting : system_.meetings)
-		if (const double moved = approach(meeting, state.now); moved > reach_ && !(meeting.isOfOne && areFar(meeting, moved)))
+		if (const double moved = approach(meeting, state.now); moved > reach_ && !(meeting.isOfOne && !isFold(meeting) && areFar(meeting, moved)))
 			return { Failure::penetrated,
 				 sentence(
 				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,

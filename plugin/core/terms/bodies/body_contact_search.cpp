@@ -46,7 +46,7 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 	system.acting = this;
 	isExact_ = isRough() && std::any_of(system.meetings.begin(), system.meetings.end(), [](const auto& m) { return m.slipping > manySlip * m.touching; });
 	for (const auto& body : system.bodies) {
-		facets_.emplace_back(body.surface, step.basis, step.grid, body.layer);
+		facets_.emplace_back(body.surface, step.basis, step.grid, body.layer, body.layerOfPiece);
 		start_.push_back(facets_.back().start);
 	}
 	for (int m = 0; m < int(system.meetings.size()); ++m)
@@ -103,14 +103,15 @@ template <int Dim> void BodyContact<Dim>::addWedge(const ContactPoint& point, do
 template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const StepContext<Dim>& step)
 {
 	const auto& meeting = system_.meetings[number];
-	if (areFar(meeting, reach_)) return;
+	if (isFold(meeting) ? system_.bodies[meeting.slave].layerOfPiece.empty() : areFar(meeting, reach_)) return;
 	const auto&   slave = facets_[meeting.slave];
 	Attacher<Dim> ofSlave(step.basis, step.grid, system_.bodies[meeting.slave].layer),
 	        ofMaster(step.basis, step.grid, system_.bodies[meeting.master].layer);
 	const PiecesByCell<Dim> byCell(facets_[meeting.master], step.grid, reach_);
 	const Quadrature<Dim>   rule;
 	for (int i = 0; i < int(slave.pieces.size()); ++i) {
-		if (!slave.isThere(slave.pieces[i])) continue;
+		if (!slave.isThere(slave.pieces[i]) || (isFold(meeting) && layerOf(meeting.slave, i) <= system_.bodies[meeting.slave].layer)) continue;
+		ofSlave.goTo(layerOf(meeting.slave, i));
 		const Vec<Dim> normal = system_.bodies[meeting.slave].surface.normal(slave.pieces[i], slave.start);
 		for (const auto& weight : rule.weight) {
 			Vec<Dim> x = Vec<Dim>::Zero();
@@ -132,12 +133,29 @@ template <int Dim> void BodyContact<Dim>::addContactPoints(int number, const Ste
 	}
 }
 
+/// The layer of the nodes of a facet.
+template <int Dim> int BodyContact<Dim>::layerOf(int body, int piece) const
+{
+	const auto& layers = system_.bodies[body].layerOfPiece;
+	return layers.empty() ? system_.bodies[body].layer : std::max(system_.bodies[body].layer, layers[facets_[body].whole[piece]]);
+}
+
+/// True unless both are of the same side of a fold, or the piece is far from folds.
+template <int Dim> bool BodyContact<Dim>::mayTouch(const ContactPoint& contactPoint, int piece) const
+{
+	const auto& meeting = meetingOf(contactPoint);
+	if (!isFold(meeting)) return true;
+	const int layer = system_.bodies[meeting.master].layerOfPiece[facets_[meeting.master].whole[piece]];
+	return layer >= 0 && layer < layerOf(meeting.slave, contactPoint.piece);
+}
+
 template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
 {
 	const int body = meetingOf(contactPoint).master;
 	for (const int piece : pieces) {
 		const auto x = pair(contactPoint.start, body, piece, start_);
-		if (squaredDistance(x) > reach_ * reach_) continue;
+		if (squaredDistance(x) > reach_ * reach_ || !mayTouch(contactPoint, piece)) continue;
+		ofMaster.goTo(layerOf(body, piece));
 		Near     near { piece, closestWeights(x), {} };
 		Vec<Dim> foot = Vec<Dim>::Zero();
 		for (int v = 0; v < Dim; ++v)

@@ -95,7 +95,7 @@ template <int Dim> void spreadPressure(const ContactSystem<Dim>& system, const G
 template <int Dim> int layerBefore(const Grid<Dim>& grid, const Vec<Dim>& onBody, const Vec<Dim>& normal, int layer)
 {
 	constexpr double little = 1e-3; // cells
-	return grid.parting ? grid.parting->layerAt(onBody + little * grid.cellSize * normal) : layer;
+	return grid.parting ? grid.parting->layerAt(onBody + little * grid.cellSize * normal, layer) : layer;
 }
 
 template <int Dim> auto findLost(const ContactSystem<Dim>& system, const StepContext<Dim>& step, const std::vector<ContactPoint<Dim>>& points)
@@ -126,13 +126,20 @@ template <int Dim> struct SoilPoint {
 	Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
 };
 
+/// Layer of the body of points that a point is part of.
+template <int Dim> int layerOfBody(const StepContext<Dim>& step, int point)
+{
+	const int layer = step.cloud.layerOf(point);
+	return step.grid.parting ? step.grid.parting->layerOfBody(layer) : layer;
+}
+
 /// Points near bodies, by body.
 template <int Dim> std::vector<SoilPoint<Dim>> soilNear(const ContactSystem<Dim>& system, const StepContext<Dim>& step)
 {
 	std::vector<SoilPoint<Dim>> found;
 	for (const auto& [body, point, side] : nearPoints(system.bodies, step.cloud, step.basis, step.grid)) {
 		if (point >= step.division.ownOf(step.cloud.size())) continue; // the process that has it tells of it
-		SoilPoint<Dim> near { body, side, step.grid.parting ? 0 : step.cloud.layerOf(point), {}, {}, step.stiffnessOf(point).modulus };
+		SoilPoint<Dim> near { body, side, layerOfBody(step, point), {}, {}, step.stiffnessOf(point).modulus };
 		std::copy_n(step.cloud.position[point].data(), Dim, near.position.data());
 		std::copy_n(step.cloud.halfSize[point].data(), Dim, near.halfSize.data());
 		found.push_back(near);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact/facets.hpp"
 #include "core/grid/cells_around.hpp"
+#include "core/grid/parting.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -116,22 +117,38 @@ template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& pos
 		const Index<Dim> cell = own + offsetAround<Dim>(i);
 		const Vec<Dim>   low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
 		const double     away = (xi - inside).squaredNorm();
-		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		Key              key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (grid.parting) key = grid.parting->cellFor(key);
 		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
 			least = away, nearest = grid.origin + grid.cellSize * inside;
 	}
 	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
 }
 
+/// Layers of vertices: the highest one of their pieces.
+template <int Dim> std::vector<int> layersOf(const Facets<Dim>& facets, int layer, const std::vector<int>& layerOfPiece)
+{
+	std::vector<int> layers(facets.start.size(), layer);
+	for (std::size_t i = 0; i < facets.pieces.size() && !layerOfPiece.empty(); ++i)
+		for (const int v : facets.pieces[i])
+			layers[v] = std::max(layers[v], layerOfPiece[facets.whole[i]]);
+	return layers;
+}
+
 } // namespace
 
-template <int Dim> Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : start(surface.vertices)
+template <int Dim>
+Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer, const std::vector<int>& layerOfPiece)
+        : start(surface.vertices)
 {
 	for (std::size_t i = 0; i < surface.pieces.size(); ++i)
 		addPiece(*this, surface.pieces[i], int(i), grid);
+	const auto    layers = layersOf(*this, layer, layerOfPiece);
 	Attacher<Dim> attach(basis, grid, layer);
-	for (const Vec<Dim>& x : start)
-		at.push_back(attach(x));
+	for (std::size_t v = 0; v < start.size(); ++v) {
+		attach.goTo(layers[v]);
+		at.push_back(attach(start[v]));
+	}
 }
 
 template <int Dim> bool Facets<Dim>::isThere(const Piece& piece) const

@@ -17,8 +17,9 @@ template <int Dim> struct Facets {
 	std::vector<Piece>                          pieces;
 	std::vector<int>                            whole; ///< piece of the surface that each piece is part of
 
-	/// Facets of the body whose nodes are in a layer.
-	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
+	/// Facets of the body whose nodes are in a layer, or, if not empty, in that of each piece of the surface where that
+	/// is not less than 0.
+	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer, const std::vector<int>& layerOfPiece = {});
 
 	bool      isThere(const Piece&) const; ///< all of its vertices
 	Positions positionsAt(const Eigen::VectorXd& d) const;
@@ -32,11 +33,16 @@ public:
 	/// The basis and the grid must outlive it.
 	Attacher(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : basis_(basis), grid_(grid), layer_(layer) { }
 	std::optional<Attachment<Dim>> operator()(const Vec<Dim>& position);
+	/// Takes those of another layer from now on.
+	void goTo(int layer)
+	{
+		if (layer != layer_) layer_ = layer, last_.reset();
+	}
 
 private:
 	const CloudBasis<Dim>&         basis_;
 	const Grid<Dim>&               grid_;
-	const int                      layer_;
+	int                            layer_;
 	std::optional<Attachment<Dim>> last_; // inside of its cell
 };
 

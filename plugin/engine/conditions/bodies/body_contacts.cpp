@@ -2,15 +2,28 @@
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "core/base/sentence.hpp"
 #include "core/grid/cells_around.hpp"
+#include "core/grid/folds.hpp"
 #include "core/terms/inertia/motion.hpp"
 #include "engine/conditions/bodies/bodies_past.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/conditions/structures/parting.hpp"
 #include <algorithm>
+#include <map>
 #include <set>
 #include <unordered_map>
 
 namespace yade {
+
+// Features that do not go with soil parted at folds; empty: nothing.
+static string cannotFold(const Analysis& analysis, int processes)
+{
+	if (processes > 1) return "several processes";
+	if (analysis.isExplicit()) return "explicit steps";
+	if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
+	if (MpmFlow::of(analysis)) return "flow";
+	return obstacleToParting(analysis);
+}
 
 template <int Dim>
 MeetingBodies<Dim>::MeetingBodies(const MpmCondition::Group& group, const Analysis& analysis)
@@ -188,6 +201,7 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 	requireNonePast(around.points, model, analysis, layers);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
 		system->bodies.push_back(coreBody(int(b)));
+	obstacle = cannotFold(analysis, model.processes->size());
 	for (size_t i = 0; i < given.size(); ++i) {
 		given[i]->slave = slaveOf(*given[i], around, model);
 		addMeetings(int(i), leakageOf(*given[i], around, *model.division));
@@ -201,6 +215,26 @@ template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motio
 {
 	system->weight = motion.scheme.weightOfContact();
 	motion.bodies  = system.get();
+}
+
+template <int Dim> void MeetingBodies<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model)
+{
+	if (!obstacle.empty()) return;
+	std::map<int, gimpm::FoldingBody<Dim>> folding;
+	for (const auto& meeting : system->meetings)
+		if (meeting.slave == meeting.master)
+			folding[meeting.slave] = { system->bodies[meeting.slave].layer, &system->bodies[meeting.slave].surface, meeting.pressure };
+	if (folding.empty()) return;
+	vector<gimpm::FoldingBody<Dim>> bodies;
+	for (const auto& [number, body] : folding)
+		bodies.push_back(body);
+	int bits = 0; // of the layers of bodies
+	while (*std::max_element(layers.begin(), layers.end()) > bits)
+		bits = 2 * bits + 1;
+	gimpm::partFolds(bodies, bits, cloud, model.grid);
+	size_t next = 0;
+	for (const auto& [number, body] : folding)
+		system->bodies[number].layerOfPiece = bodies[next++].layerOfPiece;
 }
 
 template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&)

@@ -17,6 +17,8 @@ public:
 	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
 	// Their forces enter the balance with a weight.
 	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	// Parts the soil at folds of bodies that are in contact with themselves.
+	void part(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&) override;
 	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
 	Work work(const StepOutcome<Dim>&) const override;
 	void reach(const StepOutcome<Dim>&) override;
@@ -38,6 +40,7 @@ private:
 	vector<int>                               contactOf; // number of the contact by that of the pair
 	vector<int>                               layers;    // layer by the number of the body, from -1 on
 	std::shared_ptr<gimpm::BodyContacts<Dim>> system;    // its terms refer to it
+	string                                    obstacle;  // feature that does not go with soil parted at folds; empty: none
 };
 
 } // namespace yade

@@ -133,7 +133,7 @@ namespace {
 				}
 				if (record.pressures.size() != partOfPiece.size()) continue;
 				for (size_t part = 0; part < numbers.size(); ++part) {
-					records.push_back({ numbers[part], record.master });
+					records.push_back({ numbers[part], isMaster ? numbers[part] : record.master });
 					for (size_t i = 0; i < partOfPiece.size(); ++i)
 						if (partOfPiece[i] == int(part))
 							records.back().pressures.push_back(record.pressures[i]),

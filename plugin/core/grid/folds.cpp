@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/folds.hpp"
+#include "core/grid/cells_around.hpp"
+#include "core/grid/disjoint_sets.hpp"
+#include "core/grid/parting.hpp"
+#include "core/grid/parts_of_body.hpp"
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace gimpm {
+namespace {
+
+/// Distance of pieces that face each other up to which their soil may share nodes [cells].
+constexpr double reachOfFolds = 2.5;
+/// Depth of a piece behind another one that it faces, at most [cells].
+constexpr double deepestFacing = 0.35;
+/// Cosine of the angle between their normals, at most.
+constexpr double leastFacing = -0.3;
+/// Gap between domains that are neighbours, at most [cells].
+constexpr double gapOfNeighbours = 0.3;
+
+/// Numbers by the cells of an edge length that have them.
+template <int Dim> class ByCell {
+public:
+	ByCell(const Vec<Dim>& origin, double size) : origin_(origin), size_(size) { }
+
+	Index<Dim> cell(const Vec<Dim>& x) const { return ((x - origin_) / size_).array().floor().template cast<int>(); }
+	void       add(const Index<Dim>& cell, int number) { numbers_[Grid<Dim>::key(cell)].push_back(number); }
+
+	template <class F> void forAll(const Index<Dim>& cell, F&& f) const
+	{
+		if (const auto found = numbers_.find(Grid<Dim>::key(cell)); found != numbers_.end())
+			for (const int number : found->second)
+				f(number);
+	}
+	/// Calls f(number) for those of the cell of a position and the cells around it.
+	template <class F> void forNear(const Vec<Dim>& x, F&& f) const
+	{
+		for (int n = 0; n < cellsAround<Dim>; ++n)
+			forAll(cell(x) + offsetAround<Dim>(n), f);
+	}
+
+private:
+	Vec<Dim>                                  origin_;
+	double                                    size_;
+	std::unordered_map<Key, std::vector<int>> numbers_;
+};
+
+/// Keys of cells, and of the cells around them.
+template <int Dim> std::set<Key> widened(const std::set<Key>& cells)
+{
+	std::set<Key> all;
+	for (const Key cell : cells)
+		for (int n = 0; n < cellsAround<Dim>; ++n)
+			all.insert(Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n)));
+	return all;
+}
+
+/// The search for folds of one body.
+template <int Dim> class FoldSearch {
+public:
+	FoldSearch(FoldingBody<Dim>& body, int firstBit, const Grid<Dim>& grid) : body_(body), firstBit_(firstBit), grid_(grid), pieces_(grid.origin, grid.cellSize)
+	{
+		for (const auto& piece : body.surface->pieces) {
+			Vec<Dim> centre = Vec<Dim>::Zero();
+			for (const int v : piece)
+				centre += body.surface->vertices[v] / Dim;
+			centre_.push_back(centre), normal_.push_back(body.surface->normal(piece, body.surface->vertices).normalized());
+		}
+	}
+
+	/// Sets layers of points and pieces, and adds keys of nodes that are there twice.
+	void part(PointCloud<Dim>& cloud, std::vector<Key>& own)
+	{
+		body_.layerOfPiece.clear();
+		const std::set<Key> near = cellsOfFacingPieces();
+		if (near.empty()) return;
+		const std::set<Key> around = widened<Dim>(near), reached = widened<Dim>(around);
+		takePieces(reached);
+		takePoints(cloud, reached);
+		connect();
+		divideNodes(around);
+		if (split_.empty()) return;
+		findSides();
+		joinParts();
+		numberSides();
+		for (const Split& node : split_)
+			for (const auto& part : node.parts)
+				if (const int layer = layer_[side_[part[0]]]; !node.isWhole && layer > 0) own.push_back(Parting<Dim>::in(body_.layer | layer, node.key));
+		for (std::size_t i = 0; i < points_.size(); ++i)
+			if (side_[i] >= 0) cloud.layer[points_[i]] = body_.layer | layer_[side_[i]];
+		for (std::size_t i = 0; i < centre_.size(); ++i)
+			body_.layerOfPiece.push_back(sideOfPiece_[i] < 0 ? -1 : body_.layer | layer_[sideOfPiece_[i]]);
+	}
+
+private:
+	/// A node at which the points that have its functions are in parts.
+	struct Split {
+		Key                           key;
+		std::vector<std::vector<int>> parts;
+		bool                          isWhole = false; ///< its parts cannot have nodes of their own
+	};
+
+	bool face(int i, int j) const
+	{
+		const Vec<Dim> way = centre_[j] - centre_[i];
+		const double   h = grid_.cellSize, deepest = -deepestFacing * h;
+		return normal_[i].dot(normal_[j]) < leastFacing && way.squaredNorm() < reachOfFolds * reachOfFolds * h * h && way.dot(normal_[i]) > deepest
+		        && -way.dot(normal_[j]) > deepest;
+	}
+
+	std::set<Key> cellsOfFacingPieces() const
+	{
+		ByCell<Dim> pieces(grid_.origin, reachOfFolds * grid_.cellSize);
+		for (std::size_t i = 0; i < centre_.size(); ++i)
+			pieces.add(pieces.cell(centre_[i]), int(i));
+		std::vector<char> faces(centre_.size(), 0);
+		for (int i = 0; i < int(centre_.size()); ++i)
+			pieces.forNear(centre_[i], [&](int j) {
+				if (j > i && !(faces[i] && faces[j]) && face(i, j)) faces[i] = faces[j] = 1;
+			});
+		std::set<Key> cells;
+		for (std::size_t i = 0; i < faces.size(); ++i)
+			if (faces[i]) cells.insert(Grid<Dim>::key(pieces_.cell(centre_[i])));
+		return cells;
+	}
+
+	/// Pieces by all cells that they may go through.
+	void takePieces(const std::set<Key>& cells)
+	{
+		behind_.assign(centre_.size(), -1);
+		for (std::size_t i = 0; i < centre_.size(); ++i) {
+			if (!cells.count(Grid<Dim>::key(pieces_.cell(centre_[i])))) continue;
+			Vec<Dim> low = centre_[i], high = low;
+			for (const int v : body_.surface->pieces[i])
+				low = low.cwiseMin(body_.surface->vertices[v]), high = high.cwiseMax(body_.surface->vertices[v]);
+			forIndicesUpTo<Dim>(pieces_.cell(low), pieces_.cell(high), [&](const Index<Dim>& cell) { pieces_.add(cell, int(i)); });
+			near_.push_back(int(i));
+		}
+	}
+
+	void takePoints(const PointCloud<Dim>& cloud, const std::set<Key>& cells)
+	{
+		for (int p = 0; p < int(cloud.size()); ++p)
+			if (cloud.layer[p] == body_.layer && cells.count(Grid<Dim>::key(pieces_.cell(cloud.position[p]))))
+				points_.push_back(p), boxes_.push_back(domainBox<Dim>(cloud.position[p], cloud.halfSize[p]));
+	}
+
+	Vec<Dim> centreOf(int i) const { return (boxes_[i].low + boxes_[i].high) / 2; }
+
+	bool isThroughSurface(const Vec<Dim>& a, const Vec<Dim>& b) const
+	{
+		bool is = false;
+		forIndicesUpTo<Dim>(pieces_.cell(a.cwiseMin(b)), pieces_.cell(a.cwiseMax(b)), [&](const Index<Dim>& cell) {
+			pieces_.forAll(cell, [&](int i) {
+				const double one = normal_[i].dot(a - centre_[i]), other = normal_[i].dot(b - centre_[i]);
+				is = is || (one * other <= 0 && body_.surface->cuts(body_.surface->pieces[i], a, b));
+			});
+		});
+		return is;
+	}
+
+	/// Finds the neighbours of points that no piece parts from them, and the nearest point behind each piece. Few
+	/// points that are connected to no others have got out of the surface: they go with the nearest point.
+	void connect()
+	{
+		ByCell<Dim> byCell(grid_.origin, grid_.cellSize);
+		for (std::size_t i = 0; i < boxes_.size(); ++i)
+			byCell.add(byCell.cell(centreOf(int(i))), int(i));
+		neighbours_.resize(boxes_.size());
+		DisjointSets                    connected(int(boxes_.size()));
+		std::vector<std::array<int, 2>> parted;
+		for (int i = 0; i < int(boxes_.size()); ++i)
+			byCell.forNear(centreOf(i), [&](int j) {
+				const double gap = (boxes_[i].low - boxes_[j].high).cwiseMax(boxes_[j].low - boxes_[i].high).maxCoeff();
+				if (j <= i || gap > gapOfNeighbours * grid_.cellSize) return;
+				if (isThroughSurface(centreOf(i), centreOf(j))) return parted.push_back({ i, j });
+				neighbours_[i].push_back(j), neighbours_[j].push_back(i), connected.join(i, j);
+			});
+		connectStrays(connected, parted);
+		for (const int piece : near_)
+			behind_[piece] = pointBehind(piece, byCell);
+	}
+
+	/// The nearest point behind a piece, if there is one without a way through the surface to it.
+	int pointBehind(int piece, const ByCell<Dim>& byCell) const
+	{
+		constexpr double inside = 0.02; // [cells]
+		const Vec<Dim>   from   = centre_[piece] - inside * grid_.cellSize * normal_[piece];
+		int              nearest[2] { -1, -1 }; // through the surface or not
+		double           least[2] { std::numeric_limits<double>::infinity(), least[0] };
+		byCell.forNear(centre_[piece], [&](int i) {
+			const Vec<Dim> way  = centreOf(i) - from;
+			const double   away = way.squaredNorm();
+			if (way.dot(normal_[piece]) >= 0 || away >= least[1]) return;
+			const bool isFree = !isThroughSurface(from, centreOf(i));
+			if (away < least[isFree]) least[isFree] = away, nearest[isFree] = i;
+		});
+		return nearest[1] >= 0 ? nearest[1] : nearest[0];
+	}
+
+	void connectStrays(DisjointSets& connected, const std::vector<std::array<int, 2>>& parted)
+	{
+		constexpr int    few = 1 << Dim;
+		std::vector<int> size(boxes_.size(), 0);
+		for (int i = 0; i < int(boxes_.size()); ++i)
+			++size[connected.root(i)];
+		std::map<int, std::pair<double, int>> nearest;
+		for (const auto& [i, j] : parted)
+			for (const auto& [stray, other] : { std::pair(i, j), std::pair(j, i) }) {
+				if (size[connected.root(stray)] >= few || size[connected.root(other)] < few) continue;
+				const auto found = nearest.emplace(stray, std::pair((centreOf(i) - centreOf(j)).squaredNorm(), other));
+				found.first->second = std::min(found.first->second, std::pair((centreOf(i) - centreOf(j)).squaredNorm(), other));
+			}
+		for (const auto& [stray, by] : nearest)
+			neighbours_[stray].push_back(by.second), neighbours_[by.second].push_back(stray);
+	}
+
+	/// Finds nodes at which points are in parts. Points half a cell farther away connect them, too.
+	void divideNodes(const std::set<Key>& cells)
+	{
+		constexpr double farther = 0.5; // [cells]
+		ByCell<Dim>      points(grid_.origin, grid_.cellSize);
+		for (int i = 0; i < int(boxes_.size()); ++i)
+			points.add(points.cell(centreOf(i)), i);
+		std::set<Key> nodes;
+		for (const Key cell : cells)
+			for (int corner = 0; corner < 1 << Dim; ++corner)
+				nodes.insert(cell + Grid<Dim>::keyOffset(corner));
+		std::vector<int> numberOf(boxes_.size(), -1);
+		for (const Key node : nodes) {
+			const Vec<Dim>   x = grid_.nodePosition(Grid<Dim>::index(node));
+			std::vector<int> around;
+			forIndicesUpTo<Dim>(Grid<Dim>::index(node).array() - 3, Grid<Dim>::index(node).array() + 2, [&](const Index<Dim>& cell) {
+				points.forAll(cell, [&](int i) {
+					if (awayFrom(x, i) < 1 + farther) numberOf[i] = int(around.size()), around.push_back(i);
+				});
+			});
+			divideNode(node, x, around, numberOf);
+			for (const int i : around)
+				numberOf[i] = -1;
+		}
+	}
+
+	/// Distance of a domain from a position along the worst axis [cells].
+	double awayFrom(const Vec<Dim>& x, int i) const
+	{
+		return (boxes_[i].low - x).cwiseMax(x - boxes_[i].high).maxCoeff() / grid_.cellSize;
+	}
+
+	void divideNode(Key node, const Vec<Dim>& x, const std::vector<int>& around, const std::vector<int>& numberOf)
+	{
+		DisjointSets connected(int(around.size()));
+		for (const int i : around)
+			for (const int j : neighbours_[i])
+				if (numberOf[j] >= 0) connected.join(numberOf[i], numberOf[j]);
+		std::map<int, std::vector<int>> parts;
+		for (const int i : around)
+			if (awayFrom(x, i) < 1 - 1e-6) parts[connected.root(numberOf[i])].push_back(i);
+		if (parts.size() < 2) return;
+		split_.push_back({ node, {} });
+		for (auto& [root, part] : parts)
+			split_.back().parts.push_back(std::move(part));
+	}
+
+	/// Joins parts that share points to sides, and numbers these: first those without pressed pieces, and as their
+	/// first points are numbered.
+	void findSides()
+	{
+		DisjointSets connected(int(boxes_.size()));
+		side_.assign(boxes_.size(), -1);
+		for (const Split& node : split_)
+			for (const auto& part : node.parts)
+				for (const int i : part)
+					connected.join(part[0], i), side_[i] = 0;
+		for (int i = 0; i < int(boxes_.size()); ++i)
+			if (side_[i] == 0) side_[i] = connected.root(i);
+		findSidesOfPieces();
+		std::set<int> pressed;
+		for (const int piece : near_)
+			if (piece < int(body_.pressure.size()) && body_.pressure[piece] > 0) pressed.insert(sideOfPiece_[piece]);
+		std::map<std::pair<bool, int>, int> number;
+		for (const int side : side_)
+			if (side >= 0) number[{ pressed.count(side) > 0, side }];
+		int next = 0;
+		for (auto& [side, own] : number)
+			own = next++;
+		for (auto* sides : { &side_, &sideOfPiece_ })
+			for (int& side : *sides)
+				if (side >= 0) side = number[{ pressed.count(side) > 0, side }];
+		layer_.assign(next, 0);
+	}
+
+	/// Sides of the points behind pieces: that which most of the surface around a piece has. A corner that has got a
+	/// little into the other side has points of both behind it.
+	void findSidesOfPieces()
+	{
+		constexpr double           around = 0.75; // [cells]
+		std::map<int, std::vector<int>> at;       // pieces by vertex
+		for (const int i : near_)
+			for (const int v : body_.surface->pieces[i])
+				at[v].push_back(i);
+		sideOfPiece_.assign(centre_.size(), -1);
+		for (const int i : near_) {
+			if (behind_[i] < 0 || side_[behind_[i]] < 0) continue;
+			std::vector<int>      found { i };
+			std::map<int, double> area;
+			for (std::size_t n = 0; n < found.size(); ++n) {
+				const auto& piece = body_.surface->pieces[found[n]];
+				if (const int by = behind_[found[n]]; by >= 0 && side_[by] >= 0) area[side_[by]] += body_.surface->normal(piece, body_.surface->vertices).norm();
+				for (const int v : piece)
+					for (const int next : at[v])
+						if ((centre_[next] - centre_[i]).norm() < around * grid_.cellSize && std::find(found.begin(), found.end(), next) == found.end())
+							found.push_back(next);
+			}
+			sideOfPiece_[i] = std::max_element(area.begin(), area.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+		}
+	}
+
+	/// Joins parts of one side at a node: they are connected elsewhere.
+	void joinParts()
+	{
+		for (Split& node : split_) {
+			std::map<int, std::vector<int>> bySide;
+			for (const auto& part : node.parts)
+				bySide[side_[part[0]]].insert(bySide[side_[part[0]]].end(), part.begin(), part.end());
+			node.parts.clear();
+			for (auto& [side, part] : bySide)
+				node.parts.push_back(std::move(part));
+			node.isWhole = node.parts.size() == 1;
+		}
+	}
+
+	/// Gives sides that meet at a node different bits.
+	void numberSides()
+	{
+		std::vector<std::set<int>> meet(layer_.size());
+		for (Split& node : split_)
+			for (const auto& part : node.parts)
+				for (const auto& other : node.parts)
+					if (&part != &other) meet[side_[part[0]]].insert(side_[other[0]]);
+		std::vector<char> hasNone(layer_.size(), 0);
+		for (std::size_t side = 0; side < layer_.size(); ++side) {
+			std::set<int> taken;
+			for (const int other : meet[side])
+				if (other < int(side)) taken.insert(layer_[other]);
+			int layer = 0;
+			while (taken.count(layer))
+				layer = layer == 0 ? firstBit_ : layer << 1;
+			hasNone[side] = layer > Grid<Dim>::mostLayer;
+			layer_[side]  = hasNone[side] ? 0 : layer;
+		}
+		for (Split& node : split_)
+			for (const auto& part : node.parts)
+				node.isWhole |= hasNone[side_[part[0]]];
+	}
+
+	FoldingBody<Dim>&             body_;
+	const int                     firstBit_;
+	const Grid<Dim>&              grid_;
+	std::vector<Vec<Dim>>         centre_, normal_; // of all pieces
+	ByCell<Dim>                   pieces_;
+	std::vector<int>              near_, behind_; // pieces near folds; the point behind each piece, -1: none
+	std::vector<int>              points_;        // points near folds, in the cloud
+	std::vector<DomainBox<Dim>>   boxes_;         // their domains
+	std::vector<std::vector<int>> neighbours_;
+	std::vector<Split>            split_;
+	std::vector<int>              side_, sideOfPiece_, layer_; // by point and by piece, -1: of none; by side
+};
+
+/// Points by their cells, for the layer at a position.
+template <int Dim> class LayerOfNearest {
+public:
+	LayerOfNearest(const PointCloud<Dim>& cloud, int bitsOfBodies, const Grid<Dim>& grid)
+	        : position_(cloud.position), layer_(cloud.layer), bitsOfBodies_(bitsOfBodies), points_(grid.origin, grid.cellSize)
+	{
+		for (std::size_t p = 0; p < position_.size(); ++p)
+			points_.add(points_.cell(position_[p]), int(p));
+	}
+	int operator()(const Vec<Dim>& x, int ofBody) const
+	{
+		double least = std::numeric_limits<double>::infinity();
+		int    layer = std::max(0, ofBody);
+		points_.forNear(x, [&](int p) {
+			if (ofBody >= 0 && (layer_[p] & bitsOfBodies_) != ofBody) return;
+			if (const double away = (position_[p] - x).squaredNorm(); away < least) least = away, layer = layer_[p];
+		});
+		return layer;
+	}
+
+private:
+	std::vector<Vec<Dim>> position_;
+	std::vector<int>      layer_;
+	int                   bitsOfBodies_;
+	ByCell<Dim>           points_;
+};
+
+} // namespace
+
+template <int Dim> void partFolds(std::vector<FoldingBody<Dim>>& bodies, int bitsOfBodies, PointCloud<Dim>& cloud, Grid<Dim>& grid)
+{
+	std::vector<Key> own;
+	grid.parting.reset();
+	for (int& layer : cloud.layer)
+		layer &= bitsOfBodies;
+	for (FoldingBody<Dim>& body : bodies)
+		FoldSearch<Dim>(body, bitsOfBodies + 1, grid).part(cloud, own);
+	if (own.empty()) {
+		for (int& layer : cloud.layer)
+			layer &= bitsOfBodies;
+		for (FoldingBody<Dim>& body : bodies)
+			body.layerOfPiece.clear();
+		return;
+	}
+	grid.parting = std::make_shared<Parting<Dim>>(
+	        std::move(own), LayerOfNearest<Dim>(cloud, bitsOfBodies, grid), nullptr, std::vector<LeakyCut<Dim>>(), bitsOfBodies);
+}
+
+template void partFolds(std::vector<FoldingBody<2>>&, int, PointCloud<2>&, Grid<2>&);
+template void partFolds(std::vector<FoldingBody<3>>&, int, PointCloud<3>&, Grid<3>&);
+
+} // namespace gimpm
