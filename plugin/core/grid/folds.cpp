@@ -81,7 +81,11 @@ public:
 		takePoints(cloud, reached);
 		connect();
 		divideNodes(around);
-		if (split_.empty()) return;
+		if (split_.empty()) {
+			for (const Vec<Dim>& centre : centre_)
+				body_.layerOfPiece.push_back(near.count(Grid<Dim>::key(pieces_.cell(centre))) ? body_.layer : -1);
+			return;
+		}
 		findSides();
 		joinParts();
 		numberSides();
@@ -110,16 +114,40 @@ private:
 		        && -way.dot(normal_[j]) > deepest;
 	}
 
+	/// Bits of the axes along which a normal leads, two for each; normals that face each other have opposite ones.
+	static int signsOf(const Vec<Dim>& normal)
+	{
+		constexpr double least = -leastFacing / Dim;
+		int              signs = 0;
+		for (int a = 0; a < Dim; ++a)
+			signs |= (normal[a] > least) << a | (normal[a] < -least) << (Dim + a);
+		return signs;
+	}
+	static bool areOpposite(int signs, int others)
+	{
+		constexpr int up = (1 << Dim) - 1;
+		return (signs & up & others >> Dim) || (others & up & signs >> Dim);
+	}
+
 	std::set<Key> cellsOfFacingPieces() const
 	{
-		ByCell<Dim> pieces(grid_.origin, reachOfFolds * grid_.cellSize);
-		for (std::size_t i = 0; i < centre_.size(); ++i)
-			pieces.add(pieces.cell(centre_[i]), int(i));
+		ByCell<Dim>                  pieces(grid_.origin, reachOfFolds * grid_.cellSize);
+		std::unordered_map<Key, int> signs;
+		for (std::size_t i = 0; i < centre_.size(); ++i) {
+			const Index<Dim> cell = pieces.cell(centre_[i]);
+			pieces.add(cell, int(i)), signs[Grid<Dim>::key(cell)] |= signsOf(normal_[i]);
+		}
+		std::unordered_map<Key, int> around;
+		for (const auto& [cell, own] : signs)
+			for (int n = 0; n < cellsAround<Dim>; ++n)
+				around[Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n))] |= own;
 		std::vector<char> faces(centre_.size(), 0);
-		for (int i = 0; i < int(centre_.size()); ++i)
+		for (int i = 0; i < int(centre_.size()); ++i) {
+			if (!areOpposite(signsOf(normal_[i]), around[Grid<Dim>::key(pieces.cell(centre_[i]))])) continue;
 			pieces.forNear(centre_[i], [&](int j) {
 				if (j > i && !(faces[i] && faces[j]) && face(i, j)) faces[i] = faces[j] = 1;
 			});
+		}
 		std::set<Key> cells;
 		for (std::size_t i = 0; i < faces.size(); ++i)
 			if (faces[i]) cells.insert(Grid<Dim>::key(pieces_.cell(centre_[i])));
@@ -154,8 +182,9 @@ private:
 		bool is = false;
 		forIndicesUpTo<Dim>(pieces_.cell(a.cwiseMin(b)), pieces_.cell(a.cwiseMax(b)), [&](const Index<Dim>& cell) {
 			pieces_.forAll(cell, [&](int i) {
+				if (is) return;
 				const double one = normal_[i].dot(a - centre_[i]), other = normal_[i].dot(b - centre_[i]);
-				is = is || (one * other <= 0 && body_.surface->cuts(body_.surface->pieces[i], a, b));
+				is = one * other <= 0 && body_.surface->cuts(body_.surface->pieces[i], a, b);
 			});
 		});
 		return is;
@@ -302,17 +331,19 @@ private:
 			for (const int v : body_.surface->pieces[i])
 				at[v].push_back(i);
 		sideOfPiece_.assign(centre_.size(), -1);
+		std::vector<int> foundFor(centre_.size(), -1);
 		for (const int i : near_) {
 			if (behind_[i] < 0 || side_[behind_[i]] < 0) continue;
 			std::vector<int>      found { i };
+			foundFor[i] = i;
 			std::map<int, double> area;
 			for (std::size_t n = 0; n < found.size(); ++n) {
 				const auto& piece = body_.surface->pieces[found[n]];
 				if (const int by = behind_[found[n]]; by >= 0 && side_[by] >= 0) area[side_[by]] += body_.surface->normal(piece, body_.surface->vertices).norm();
 				for (const int v : piece)
 					for (const int next : at[v])
-						if ((centre_[next] - centre_[i]).norm() < around * grid_.cellSize && std::find(found.begin(), found.end(), next) == found.end())
-							found.push_back(next);
+						if (foundFor[next] != i && (centre_[next] - centre_[i]).norm() < around * grid_.cellSize)
+							foundFor[next] = i, found.push_back(next);
 			}
 			sideOfPiece_[i] = std::max_element(area.begin(), area.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 		}
@@ -410,7 +441,8 @@ template <int Dim> void partFolds(std::vector<FoldingBody<Dim>>& bodies, int bit
 		for (int& layer : cloud.layer)
 			layer &= bitsOfBodies;
 		for (FoldingBody<Dim>& body : bodies)
-			body.layerOfPiece.clear();
+			for (int& layer : body.layerOfPiece)
+				layer = std::min(layer, body.layer);
 		return;
 	}
 	grid.parting = std::make_shared<Parting<Dim>>(

@@ -31,7 +31,7 @@ template <int Dim> struct MeetingBody {
 	std::string  name;
 	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
-	/// In this step: layers of the pieces near folds of the body, -1 of the others; empty: it has no folds.
+	/// In this step: layers of the pieces that face others of the body nearby, -1 of the others; empty: there are none.
 	std::vector<int> layerOfPiece {};
 
 	/// Makes contact independent of the diagonals of rectangles, before the first step.

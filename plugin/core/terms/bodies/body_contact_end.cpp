@@ -70,7 +70,7 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 	return sum;
 }
 
-/// Numbers of the vertices of the slave and of the master: all, or those on the sides of folds.
+/// Numbers of the vertices of the slave and of the master: all, or for each those of pieces that face others.
 template <int Dim> std::vector<std::vector<int>> BodyContact<Dim>::verticesOf(const BodyMeeting<Dim>& meeting) const
 {
 	std::vector<std::vector<int>> vertices(2);
@@ -85,7 +85,9 @@ template <int Dim> std::vector<std::vector<int>> BodyContact<Dim>::verticesOf(co
 	for (std::size_t i = 0; i < facets_[meeting.slave].pieces.size() && !body.layerOfPiece.empty(); ++i) {
 		const int layer = body.layerOfPiece[facets_[meeting.slave].whole[i]];
 		for (const int v : facets_[meeting.slave].pieces[i])
-			if (layer >= 0) vertices[layer == body.layer].push_back(v);
+			if (layer >= 0)
+				for (auto& numbers : vertices)
+					numbers.push_back(v);
 	}
 	return vertices;
 }

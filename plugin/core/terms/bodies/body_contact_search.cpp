@@ -153,8 +153,9 @@ template <int Dim> void BodyContact<Dim>::findNear(ContactPoint& contactPoint, c
 {
 	const int body = meetingOf(contactPoint).master;
 	for (const int piece : pieces) {
+		if (!mayTouch(contactPoint, piece)) continue;
 		const auto x = pair(contactPoint.start, body, piece, start_);
-		if (squaredDistance(x) > reach_ * reach_ || !mayTouch(contactPoint, piece)) continue;
+		if (squaredDistance(x) > reach_ * reach_) continue;
 		ofMaster.goTo(layerOf(body, piece));
 		Near     near { piece, closestWeights(x), {} };
 		Vec<Dim> foot = Vec<Dim>::Zero();
