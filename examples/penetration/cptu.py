@@ -21,7 +21,7 @@ from style import plt
 options = readOptions('A cone with pore pressures, by its velocity.',
         velocities=('1000 100 30 10 3 1 0.3 0.1 0.03 0.01', 'normalised, v D / c_v, between blanks'),
         ends=('undrained drained', 'runs without flow, and without water'),
-        cells=(3, 'over the radius'),
+        cells=(4, 'over the radius'),
         halvings=(1, 'most halvings of the cells at edges (MpmGrid.adaptation)'),
         pointsPerCell=(2, 'material points per cell and axis'),
         travel=(8., 'way in radii'),
@@ -30,7 +30,7 @@ R, p0, e0, k = 0.01785, 1e5, 1.2, 1e-9  # radius [m], effective stress [Pa], voi
 soil = dict(density=1700, shearModulus=2.5e6, criticalStateRatio=0.9, compressionIndex=0.09, swellingIndex=0.02, preconsolidation=p0, referencePressure=1e3)
 cv = k * p0 / (9810 * soil['compressionIndex'])  # compressionIndex is lambda / (1 + e)
 cu = soil['criticalStateRatio'] / 2 * p0 * 0.5**(1 - soil['swellingIndex'] / soil['compressionIndex'])
-h, tip, shoulder = R / options.cells, R / np.tan(np.radians(30)), -R
+h, tip, shoulder = R / options.cells, R / np.tan(np.radians(30)), -4 * R
 way = options.travel * R
 
 

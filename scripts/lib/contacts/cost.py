@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cost of contact: a block under a plate, against the block under its weight alone; a ball with contact points an eighth of a cell apart, against one with a quarter; and a block in two bodies of points, against one."""
+"""Cost of contact: a block under a plate, against the block under its weight alone; a ball with contact points an eighth of a cell apart, against one with a quarter; a block in two bodies of points, against one; and one in contact with itself, against one that is not."""
 import time
 from math import atan, inf
 
@@ -107,3 +107,26 @@ def bodies(wide=128, deep=48, steps=4, friction=0., inTime=False, runs=3, second
 	found = [[_secondsOfBlock(isCut, wide, deep, steps, friction, inTime, seconds / 2 / runs) for isCut in (False, True)] for _ in range(runs)]
 	one, two = (min(run[i][0] for run in found) for i in (0, 1))
 	return dict(times=two / one, one=one, two=two, iterations=[run[1] for run in found[0]], why=' '.join({why for run in found for *_, why in run if why}))
+
+
+def _secondsOfOne(dim, cells, isOwn, steps, seconds):
+	"""Processor time in which a block falls into its weight; in contact with itself or not."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=1000, label='soil'))
+	grid = MpmGrid(cellSize=.1, dim=dim)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (.1 * cells, .1 * cells, .1 * cells if dim == 3 else 1)), grid, 2, 'soil', body='soil'))
+	contacts = [MpmBodyContact(between=('soil', 'soil'), friction=.3)] if isOwn else []
+	solver = MpmDynamicEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xyz'[:dim])], contacts=contacts, verbosity=0)
+	O.engines, O.dt = [solver], .002
+	course = Course(solver, seconds)
+	course.run(1)
+	began = time.process_time()
+	course.run(steps)
+	return time.process_time() - began, course.iterations, course.why
+
+
+def itself(dim=2, cells=55, steps=12, runs=6, seconds=200):
+	"""Processor time of steps of a block in contact with itself, which touches itself nowhere, over that without, least of *runs* of each in turn, and their iterations."""
+	found = [[_secondsOfOne(dim, cells, isOwn, steps, seconds / 2 / runs) for isOwn in (False, True)] for _ in range(runs)]
+	without, with_ = (min(run[i][0] for run in found) for i in (0, 1))
+	return dict(times=with_ / without, without=without, seconds=with_, iterations=[run[1] for run in found[0]], why=' '.join({why for run in found for *_, why in run if why}))

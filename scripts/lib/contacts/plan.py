@@ -175,6 +175,14 @@ for inTime in False, True:
 	for friction in 0., .6:
 		add(f"cost-bodies-{'time' if inTime else 'static'}-{friction:g}", 'cost.bodies', dict(times=atMost(1.3)), dict(wide=64, deep=24), friction=friction, inTime=inTime)
 
+for dim, cells in (2, 55), (3, 11):
+	add(f'cost-itself-{dim}d', 'cost.itself', dict(times=atMost(1.1)), dict(runs=1), dim=dim, cells=cells, steps=12 if dim == 2 else 6)
+
+# A body of points that folds, against two bodies, and without supports
+for dim, steps in (2, 40), (3, 24):
+	add(f'fold-{dim}d', 'folding.legs', dict(force=near(1, .02), off=atMost(.02)), dim=dim, steps=steps)
+add('fold-free', 'folding.free', dict(momentum=atMost(1e-12), gain=atMost(1e-3), narrowest=atMost(.5), last=atLeast(1)))
+
 # 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics
 add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])
 

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A body of points in contact with itself that folds: its sides meet as two bodies do, part again, and stay one body at the tip of the fold."""
+import numpy as np
+import pytest
+
+scene = '''
+import json
+import numpy as np
+from math import inf
+from yade import mpm, pack
+
+def fill(points, grid, name, depth=0.2, young=1e5):
+	if not O.materials: O.materials.append(MpmElasticMat(young=young, poisson=0.3, density=1000, label='m'))
+	region = mpm.polygon(points)
+	if grid.dim == 3: region = region & pack.inAlignedBox((*np.min(points, axis=0), 0), (*np.max(points, axis=0), depth))
+	return O.bodies.append(mpm.fill(region, grid, 2, 'm', body=name))
+
+def legs(names, dim, steps):
+	"""Two legs on a base that is held, thrown at each other: of one body or of two."""
+	O.reset()
+	grid = MpmGrid(cellSize=0.1, dim=dim)
+	if names[0] == names[1]: fill([(0, 0), (0.8, 0), (0.8, 1.1), (0.5, 1.1), (0.5, 0.2), (0.3, 0.2), (0.3, 1.1), (0, 1.1)], grid, names[0])
+	else: fill([(0.5, 0), (0.8, 0), (0.8, 1.1), (0.5, 1.1)], grid, names[0]), fill([(0, 0), (0.3, 0), (0.3, 1.1), (0, 1.1)], grid, names[1])
+	contact = MpmBodyContact(between=names, friction=0.2)
+	solver = MpmDynamicEngine(grid=grid, contacts=[contact], boundaries=[MpmBoundary(max=(inf, 0.2, inf), fix='xyz'[:dim])], newton=MpmNewton(tolerance=1e-10), verbosity=0)
+	begin, velocity = mpm.arrays()['pos'], np.zeros((len(O.bodies), 3))
+	left, top = begin[:, 0] < 0.4, begin[:, 1] > 0.9
+	velocity[:, 0] = np.where(left, 1.5, -1.5) * np.clip((begin[:, 1] - 0.2) / 0.9, 0, 1)
+	mpm.assign(velocity=velocity)
+	O.engines, O.dt, track = [solver], 0.01, []
+	for _ in range(steps):
+		O.step()
+		moved = mpm.arrays()['pos'][:, 0] - begin[:, 0]
+		track.append([moved[left & top].mean(), moved[~left & top].mean(), abs(contact.force[0]), contact.touching])
+	return track, list(contact.pairs)
+'''
+
+
+@pytest.mark.parametrize('dim, steps, share', [(2, 40, 0.01), (3, 17, 0.02)])
+def test_legs_of_one_body_meet_as_two_bodies(yade, dim, steps, share):
+	"""They press on each other with the same force, and come apart again."""
+	one, two = yade(scene + f'print(json.dumps([legs(names, {dim}, {steps}) for names in (("soil", "soil"), ("right", "left"))]))').result
+	(one, pairs), (two, _) = [(np.array(track), pairs) for track, pairs in (one, two)]
+	left, right, force, touching = one.T
+	assert abs(one[:, :2] - two[:, :2]).max() < share * abs(two[:, :2]).max()
+	assert force.max() > (500 if dim == 3 else 2500) and abs(force.max() / two[:, 2].max() - 1) < share
+	assert force[-1] == 0 and touching[-1] == 0 and left[-1] < left.max() - 0.02 and not pairs
+
+
+def test_a_free_body_folds_and_opens(yade):
+	"""The legs of a free U, oblique to the grid by its points: momentum is kept to 1e-12, no energy is won, nothing pulls after they have parted, and a restart in touch goes on as they do."""
+	track, change = yade(scene + '''
+def free():
+	O.reset()
+	grid = MpmGrid(cellSize=0.1)
+	fill([(0.03, 0), (0.93, 0), (0.93, 1.5), (0.63, 1.5), (0.63, 0.3), (0.33, 0.3), (0.33, 1.5), (0.03, 1.5)], grid, 'soil')
+	contact = MpmBodyContact(between=('soil', 'soil'), friction=0.2)
+	O.engines, O.dt = [MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0, label='solver')], 0.01
+	begin, velocity = mpm.arrays()['pos'], np.zeros((len(O.bodies), 3))
+	velocity[:, 0] = np.where(begin[:, 0] < 0.48, 1.5, -1.5) * np.clip((begin[:, 1] - 0.3) / 1.2, 0, 1)
+	mpm.assign(velocity=velocity)
+	return begin
+
+def step(begin):
+	O.step()
+	solver, contact = O.engines[0], O.engines[0].contacts[0]
+	points, data = mpm.arrays(), solver.plotData()
+	left, top = begin[:, 0] < 0.48, begin[:, 1] > 1.2
+	gap = points['pos'][~left & top, 0].min() - points['pos'][left & top, 0].max()
+	return [gap, abs(contact.force[0]), contact.touching, abs(data['momentum_x']), abs(data['momentum_y']), data['kineticEnergy'] + data['elasticEnergy']]
+
+begin = free()
+track = [step(begin) for _ in range(55)]
+whole = mpm.arrays()['pos']
+free()
+O.run(13, wait=True)
+assert O.engines[0].contacts[0].touching > 5
+O.save('folded.yade')
+O.load('folded.yade')
+O.run(42, wait=True)
+print(json.dumps([track, abs(mpm.arrays()['pos'] - whole).max()]))
+''').result
+	gap, force, touching, along, across, energy = np.array(track).T
+	assert max(along.max(), across.max()) < 1e-12 * 1000 * 0.99 * 1.5 / 4
+	assert np.diff(energy).max() < 1e-3 * energy[0] and touching.max() > 20
+	assert gap.min() < 0.045 and gap[-1] > 0.15 and force[-15:].max() == 0 and touching[-15:].max() == 0
+	assert change < 1e-9
+
+
+@pytest.mark.parametrize('names, tip, force', [(('soil', 'soil'), -0.097, 566), (('low', 'high'), -0.097, 566), (None, -0.009, 0)])
+def test_a_slab_sags_on_the_slab_below(yade, names, tip, force):
+	"""In steps without inertia, as one body that is folded and as two; without a contact it sticks to what is a cell below."""
+	sag, pressed = yade(scene + f'''
+names = {names}
+grid = MpmGrid(cellSize=0.1)
+if names and names[0] != names[1]: fill([(0, 0), (1.6, 0), (1.6, 0.3), (0, 0.3)], grid, names[0], young=6e6), fill([(0, 0.4), (1.6, 0.4), (1.6, 0.6), (0, 0.6)], grid, names[1])
+else: fill([(0, 0), (1.6, 0), (1.6, 0.3), (0.2, 0.3), (0.2, 0.4), (1.6, 0.4), (1.6, 0.6), (0, 0.6)], grid, 'soil', young=6e6)
+contacts = [MpmBodyContact(between=names, friction=0.2)] if names else []
+O.engines, O.dt = [MpmImplicitEngine(grid=grid, contacts=contacts, boundaries=[MpmBoundary(max=(inf, 0.1, inf), fix='xy'), MpmBoundary(max=(0.2, inf, inf), fix='xy')], gravity=(0, -9.81, 0), loadCurve=[(0, 0), (1, 1)], newton=MpmNewton(tolerance=1e-9), verbosity=0)], 1 / 40
+begin = mpm.arrays()['pos']
+top = (begin[:, 0] > 1.5) & (begin[:, 1] > 0.4)
+O.run(40, wait=True)
+print(json.dumps([(mpm.arrays()['pos'] - begin)[top, 1].mean(), sum(abs(contact.force[1]) for contact in contacts)]))
+''').result
+	assert abs(sag / tip - 1) < 0.03 and abs(pressed - force) < 0.02 * 566
