@@ -21,7 +21,7 @@ from style import plt
 options = readOptions('A cone with pore pressures, by its velocity.',
         velocities=('1000 100 30 10 3 1 0.3 0.1 0.03 0.01', 'normalised, v D / c_v, between blanks'),
         ends=('undrained drained', 'runs without flow, and without water'),
-        cells=(4, 'over the radius'),
+        cells=(3, 'over the radius'),
         halvings=(1, 'most halvings of the cells at edges (MpmGrid.adaptation)'),
         pointsPerCell=(2, 'material points per cell and axis'),
         travel=(8., 'way in radii'),

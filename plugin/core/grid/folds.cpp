@@ -13,12 +13,15 @@ namespace {
 
 /// Distance of pieces that face each other up to which their soil may share nodes [cells].
 constexpr double reachOfFolds = 2.5;
-/// Depth of a piece behind another one that it faces, at most [cells].
-constexpr double deepestFacing = 0.35;
+/// Depth of a piece behind another one that it faces, at most, if one of them is pressed or not [cells]: the two faces of
+/// a film do not face each other.
+constexpr double deepestPressed = 0.35, deepestFree = 0.05;
+/// Soil thinner than this does not fold, but flows as a film [cells].
+constexpr double thinnest = 0.9;
 /// Cosine of the angle between their normals, at most.
 constexpr double leastFacing = -0.3;
 /// Gap between domains that are neighbours, at most [cells].
-constexpr double gapOfNeighbours = 0.3;
+constexpr double gapOfNeighbours = 0.75;
 
 /// Numbers by the cells of an edge length that have them.
 template <int Dim> class ByCell {
@@ -106,10 +109,21 @@ private:
 		bool                          isWhole = false; ///< its parts cannot have nodes of their own
 	};
 
+	bool isPressed(int piece) const { return piece < int(body_.pressure.size()) && body_.pressure[piece] > 0; }
+
+	/// True if two pieces are the two faces of a film.
+	bool areOfFilm(int i, int j) const
+	{
+		const Vec<Dim> way  = centre_[j] - centre_[i];
+		const double   h = grid_.cellSize, back = -way.dot(normal_[i]);
+		return normal_[i].dot(normal_[j]) < leastFacing && !isPressed(i) && !isPressed(j) && back > deepestFree * h && back < thinnest * h
+		        && (way + back * normal_[i]).norm() < thinnest * h / 2;
+	}
+
 	bool face(int i, int j) const
 	{
 		const Vec<Dim> way = centre_[j] - centre_[i];
-		const double   h = grid_.cellSize, deepest = -deepestFacing * h;
+		const double   h = grid_.cellSize, deepest = -(isPressed(i) || isPressed(j) ? deepestPressed : deepestFree) * h;
 		return normal_[i].dot(normal_[j]) < leastFacing && way.squaredNorm() < reachOfFolds * reachOfFolds * h * h && way.dot(normal_[i]) > deepest
 		        && -way.dot(normal_[j]) > deepest;
 	}
@@ -141,13 +155,16 @@ private:
 		for (const auto& [cell, own] : signs)
 			for (int n = 0; n < cellsAround<Dim>; ++n)
 				around[Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n))] |= own;
-		std::vector<char> faces(centre_.size(), 0);
-		for (int i = 0; i < int(centre_.size()); ++i) {
-			if (!areOpposite(signsOf(normal_[i]), around[Grid<Dim>::key(pieces.cell(centre_[i]))])) continue;
-			pieces.forNear(centre_[i], [&](int j) {
-				if (j > i && !(faces[i] && faces[j]) && face(i, j)) faces[i] = faces[j] = 1;
-			});
-		}
+		std::vector<char> faces(centre_.size(), 0), isOfFilm(centre_.size(), 0);
+		const auto        forOpposite = [&](auto&& f) {
+                        for (int i = 0; i < int(centre_.size()); ++i)
+                                if (areOpposite(signsOf(normal_[i]), around[Grid<Dim>::key(pieces.cell(centre_[i]))]))
+                                        pieces.forNear(centre_[i], [&](int j) { f(i, j); });
+		};
+		forOpposite([&](int i, int j) { isOfFilm[i] |= !isOfFilm[i] && areOfFilm(i, j); });
+		forOpposite([&](int i, int j) {
+			if (j > i && !isOfFilm[i] && !isOfFilm[j] && !(faces[i] && faces[j]) && face(i, j)) faces[i] = faces[j] = 1;
+		});
 		std::set<Key> cells;
 		for (std::size_t i = 0; i < faces.size(); ++i)
 			if (faces[i]) cells.insert(Grid<Dim>::key(pieces_.cell(centre_[i])));
@@ -308,7 +325,7 @@ private:
 		findSidesOfPieces();
 		std::set<int> pressed;
 		for (const int piece : near_)
-			if (piece < int(body_.pressure.size()) && body_.pressure[piece] > 0) pressed.insert(sideOfPiece_[piece]);
+			if (isPressed(piece)) pressed.insert(sideOfPiece_[piece]);
 		std::map<std::pair<bool, int>, int> number;
 		for (const int side : side_)
 			if (side >= 0) number[{ pressed.count(side) > 0, side }];

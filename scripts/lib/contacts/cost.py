@@ -115,7 +115,7 @@ def _secondsOfOne(dim, cells, isOwn, steps, seconds):
 	O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=1000, label='soil'))
 	grid = MpmGrid(cellSize=.1, dim=dim)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (.1 * cells, .1 * cells, .1 * cells if dim == 3 else 1)), grid, 2, 'soil', body='soil'))
-	contacts = [MpmBodyContact(between=('soil', 'soil'), friction=.3)] if isOwn else []
+	contacts = [MpmBodyContact(between=('soil', 'soil'), friction=.3, folds=True)] if isOwn else []
 	solver = MpmDynamicEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xyz'[:dim])], contacts=contacts, verbosity=0)
 	O.engines, O.dt = [solver], .002
 	course = Course(solver, seconds)

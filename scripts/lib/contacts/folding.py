@@ -20,7 +20,7 @@ def _fill(regions, dim, speed, bottom):
 		region = mpm.polygon(points)
 		if dim == 3: region = region & pack.inAlignedBox((min(x), 0, 0), (max(x), 2, .2))
 		O.bodies.append(mpm.fill(region, grid, 2, 'soil', body=name))
-	contact = MpmBodyContact(between=(regions[0][0], regions[-1][0]), friction=.2)
+	contact = MpmBodyContact(between=(regions[0][0], regions[-1][0]), friction=.2, folds=len(regions) == 1)
 	solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0)
 	begin, velocity = mpm.arrays()['pos'], np.zeros((len(O.bodies), 3))
 	left, height = begin[:, 0] < (min(x) + max(x)) / 2, (begin[:, 1] - bottom) / (begin[:, 1].max() - bottom)
@@ -31,7 +31,7 @@ def _fill(regions, dim, speed, bottom):
 
 
 def legs(dim=2, steps=40, seconds=200):
-	"""Largest force between two legs on a base that is held, of one body over that of two bodies, the largest difference of the ways of their tops over the largest way, until they are far apart again."""
+	"""Largest force between two legs on a base that is held, of one body over that of two bodies, and the largest difference of the ways of their tops over the largest way, until they are far apart again."""
 	one = [('soil', [(0, 0), (.8, 0), (.8, 1.1), (.5, 1.1), (.5, .2), (.3, .2), (.3, 1.1), (0, 1.1)])]
 	two = [('right', [(.5, 0), (.8, 0), (.8, 1.1), (.5, 1.1)]), ('left', [(0, 0), (.3, 0), (.3, 1.1), (0, 1.1)])]
 	forces, ways, why = [], [], []

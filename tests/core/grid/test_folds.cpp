@@ -62,7 +62,7 @@ namespace {
 			EXPECT_EQ(scene.grid.parting->layerAt(x), scene.cloud.layer[p]);
 			if (x[1] > 5 && std::abs(x[0] - 3.25) < 1) EXPECT_EQ(scene.cloud.layer[p], x[0] < 3.25 ? 1 : 3);
 		}
-		EXPECT_GT(parted, 20);
+		EXPECT_GT(parted, 5);
 		EXPECT_TRUE(scene.isOwn(3, 7, 3));
 		EXPECT_FALSE(scene.isOwn(3, 2, 3));
 		EXPECT_FALSE(scene.isOwn(6, 7, 3));

@@ -21,7 +21,7 @@ def legs(names, dim, steps):
 	grid = MpmGrid(cellSize=0.1, dim=dim)
 	if names[0] == names[1]: fill([(0, 0), (0.8, 0), (0.8, 1.1), (0.5, 1.1), (0.5, 0.2), (0.3, 0.2), (0.3, 1.1), (0, 1.1)], grid, names[0])
 	else: fill([(0.5, 0), (0.8, 0), (0.8, 1.1), (0.5, 1.1)], grid, names[0]), fill([(0, 0), (0.3, 0), (0.3, 1.1), (0, 1.1)], grid, names[1])
-	contact = MpmBodyContact(between=names, friction=0.2)
+	contact = MpmBodyContact(between=names, friction=0.2, folds=names[0] == names[1])
 	solver = MpmDynamicEngine(grid=grid, contacts=[contact], boundaries=[MpmBoundary(max=(inf, 0.2, inf), fix='xyz'[:dim])], newton=MpmNewton(tolerance=1e-10), verbosity=0)
 	begin, velocity = mpm.arrays()['pos'], np.zeros((len(O.bodies), 3))
 	left, top = begin[:, 0] < 0.4, begin[:, 1] > 0.9
@@ -54,7 +54,7 @@ def free():
 	O.reset()
 	grid = MpmGrid(cellSize=0.1)
 	fill([(0.03, 0), (0.93, 0), (0.93, 1.5), (0.63, 1.5), (0.63, 0.3), (0.33, 0.3), (0.33, 1.5), (0.03, 1.5)], grid, 'soil')
-	contact = MpmBodyContact(between=('soil', 'soil'), friction=0.2)
+	contact = MpmBodyContact(between=('soil', 'soil'), friction=0.2, folds=True)
 	O.engines, O.dt = [MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0, label='solver')], 0.01
 	begin, velocity = mpm.arrays()['pos'], np.zeros((len(O.bodies), 3))
 	velocity[:, 0] = np.where(begin[:, 0] < 0.48, 1.5, -1.5) * np.clip((begin[:, 1] - 0.3) / 1.2, 0, 1)
@@ -95,7 +95,7 @@ names = {names}
 grid = MpmGrid(cellSize=0.1)
 if names and names[0] != names[1]: fill([(0, 0), (1.6, 0), (1.6, 0.3), (0, 0.3)], grid, names[0], young=6e6), fill([(0, 0.4), (1.6, 0.4), (1.6, 0.6), (0, 0.6)], grid, names[1])
 else: fill([(0, 0), (1.6, 0), (1.6, 0.3), (0.2, 0.3), (0.2, 0.4), (1.6, 0.4), (1.6, 0.6), (0, 0.6)], grid, 'soil', young=6e6)
-contacts = [MpmBodyContact(between=names, friction=0.2)] if names else []
+contacts = [MpmBodyContact(between=names, friction=0.2, folds=names[0] == names[1])] if names else []
 O.engines, O.dt = [MpmImplicitEngine(grid=grid, contacts=contacts, boundaries=[MpmBoundary(max=(inf, 0.1, inf), fix='xy'), MpmBoundary(max=(0.2, inf, inf), fix='xy')], gravity=(0, -9.81, 0), loadCurve=[(0, 0), (1, 1)], newton=MpmNewton(tolerance=1e-9), verbosity=0)], 1 / 40
 begin = mpm.arrays()['pos']
 top = (begin[:, 0] > 1.5) & (begin[:, 1] > 0.4)
@@ -103,3 +103,18 @@ O.run(40, wait=True)
 print(json.dumps([(mpm.arrays()['pos'] - begin)[top, 1].mean(), sum(abs(contact.force[1]) for contact in contacts)]))
 ''').result
 	assert abs(sag / tip - 1) < 0.03 and abs(pressed - force) < 0.02 * 566
+
+
+def test_what_does_not_fold_is_refused(yade):
+	"""Contact of two bodies, explicit steps, and cells of several sizes."""
+	said = yade(scene + '''
+def refused(names, engine, **cells):
+	O.reset()
+	grid = MpmGrid(cellSize=0.2, **cells)
+	for name in dict.fromkeys(names): fill([(0, 0), (0.4, 0), (0.4, 0.4), (0, 0.4)], grid, name)
+	O.engines, O.dt = [engine(grid=grid, contacts=[MpmBodyContact(between=names, friction=0.2, folds=True)], verbosity=0)], 1e-4
+	try: O.step()
+	except (RuntimeError, ValueError) as error: return str(error)
+print(json.dumps([refused(('a', 'b'), MpmDynamicEngine), refused(('a', 'a'), lambda **more: MpmDynamicEngine(scheme='explicit', **more)), refused(('a', 'a'), MpmDynamicEngine, refinements=[MpmRefinement(min=(0, 0, -inf), max=(0.2, 0.2, inf), halvings=1)])]))
+''').result
+	assert 'name one body twice' in said[0] and 'explicit steps' in said[1] and 'cells of several sizes' in said[2], said

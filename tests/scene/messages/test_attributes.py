@@ -250,6 +250,7 @@ outOfRange = {
         'MpmBodyContact.adhesion': ['-1.'],
         'MpmBodyContact.permittivity': ['-1.'],
         'MpmBodyContact.filled': None,
+        'MpmBodyContact.folds': None,
         'MpmBodyContact.stiffness': ['0.', '-1.'],
         'MpmBody.name': None,
         'MpmBody.vertices': None,

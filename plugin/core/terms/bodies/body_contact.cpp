@@ -13,6 +13,9 @@ namespace {
 /// Pieces are seen by contact points with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
 
+/// The same of pieces of a fold, whose surface may be rough.
+constexpr double facingInFold = -0.3;
+
 /// Distance by which a contact point may get beyond a side of the piece that it began the step with, over the cell
 /// size.
 constexpr double beyondPiece = 0.125;
@@ -71,7 +74,7 @@ template <int Dim> auto BodyContact<Dim>::nearestOf(const ContactPoint& contactP
 		if (away > least - same && at.gap < gap) continue;
 		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	return nearest && normal.dot(contactPoint.normal) < facing ? nearest : nullptr;
+	return nearest && normal.dot(contactPoint.normal) < (isFold(meetingOf(contactPoint)) ? facingInFold : facing) ? nearest : nullptr;
 }
 
 /// True if the contact point stays before the piece that was nearest as the step began, or before its plane a little

@@ -159,6 +159,8 @@ private:
 	void                findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
 	void                makeLaws(const StepContext<Dim>&);
 	void                findFirst(ContactPoint&);
+	bool                isDeep(const ContactPoint&) const;
+	void                leaveOutDeepFolds();
 	void                keepApart(ContactPoint* begin, ContactPoint* end);
 	void                takeWater(const Eigen::VectorXd& pressures, bool flows);
 	bool                isInFilledJoint(const ContactPoint&) const;

@@ -54,6 +54,7 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const StepContext<Dim>&
 	makeLaws(step);
 	for (ContactPoint& contactPoint : contactPoints_)
 		findFirst(contactPoint);
+	leaveOutDeepFolds();
 	for (auto first = contactPoints_.begin(), last = first; first != contactPoints_.end(); first = last) {
 		last = std::find_if(first, contactPoints_.end(), [&](const ContactPoint& contactPoint) {
 			return contactPoint.meeting != first->meeting || wholeOf(contactPoint) != wholeOf(*first);
@@ -205,11 +206,25 @@ template <int Dim> void BodyContact<Dim>::findFirst(ContactPoint& contactPoint)
 	contactPoint.first  = nearestOf(contactPoint, nullptr, start_);
 	if (!contactPoint.first) return;
 	contactPoint.closed = Facing<Dim>(pair(contactPoint.start, meeting.master, contactPoint.first->piece, start_)).gap;
-	if (contactPoint.closed > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	if (!isDeep(contactPoint) || isFold(meeting) || !obstacle_.empty()) return;
 	obstacle_ = sentence(
 	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -contactPoint.closed, " m inside of body '",
 	        system_.bodies[meeting.master].name, "', at (", contactPoint.start.transpose(),
 	        "): bodies must not overlap, and larger steps than they can bear get them into each other");
+}
+
+template <int Dim> bool BodyContact<Dim>::isDeep(const ContactPoint& contactPoint) const
+{
+	return contactPoint.first && contactPoint.closed <= -deepestAtStart * cellSize_;
+}
+
+/// Where films of soil that flows fold, what is deeper than contact admits stays as it is.
+template <int Dim> void BodyContact<Dim>::leaveOutDeepFolds()
+{
+	const auto isLeftOut = [&](const ContactPoint& contactPoint) { return isFold(meetingOf(contactPoint)) && isDeep(contactPoint); };
+	contactPoints_.erase(std::remove_if(contactPoints_.begin(), contactPoints_.end(), isLeftOut), contactPoints_.end());
+	for (ContactPoint& contactPoint : contactPoints_)
+		if (isFold(meetingOf(contactPoint))) findFirst(contactPoint);
 }
 
 /// Keeps contact points of one piece apart, which have its mean pressure, if they were not pressed as the last step

@@ -8,6 +8,7 @@
 #include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/bodies/tearing.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/conditions/structures/parting.hpp"
 #include "yade_api/registration.hpp"
 #include <set>
 
@@ -30,6 +31,15 @@ std::shared_ptr<Condition<2>> MpmBodyContact::make(InPlane, const Group& group, 
 std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, const Analysis& analysis) const
 {
 	return std::make_shared<MeetingBodies<3>>(group, analysis);
+}
+
+// Feature that does not go with soil parted at folds; empty: there is none.
+static string obstacleToFolds(const Analysis& analysis)
+{
+	if (analysis.isExplicit()) return "explicit steps";
+	if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
+	if (MpmFlow::of(analysis)) return "MpmFlow";
+	return obstacleToParting(analysis);
 }
 
 void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name) const
@@ -61,6 +71,10 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 		throw std::invalid_argument(
 		        name
 		        + ".filled = True: the water is that of an MpmFlow in flow of an MpmImplicitEngine, whose steps have no inertia. Leave it out, or see to these.");
+	if (folds && !isOfOne())
+		throw std::invalid_argument(name + ".folds = True is of a body in contact with itself: name one body twice in between, or leave folds out.");
+	if (const string obstacle = folds ? obstacleToFolds(analysis) : ""; !obstacle.empty())
+		throw std::invalid_argument(name + ".folds = True does not go with " + obstacle + " yet; leave one of the two out.");
 	if (isOfOne() && analysis.distributed)
 		throw std::invalid_argument(
 		        name + ".between: contact of body '" + between[0] + "' with itself cannot go with distributed=True yet; leave one of the two out.");

@@ -13,7 +13,7 @@ public:
 	Real                adhesion     = std::numeric_limits<Real>::infinity();
 	Real                stiffness    = 10;
 	Real                permittivity = std::numeric_limits<Real>::infinity();
-	bool                filled       = false;
+	bool                filled = false, folds = false;
 	Vector3r            force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	Vector3r            moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	int                 touching = 0, slipping = 0;
@@ -27,15 +27,15 @@ public:
 	{
 		return "Contact of two bodies of points, filled with mpm.fill(..., body=...): where they touch they press, rub and part, while bodies without one "
 		       "between them stick where they share cells. Each body has nodes of its own.\n\n"
-		       "Contact points on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body named twice may fall into "
-		       "parts, which have contact with each other.\n\n"
+		       "Contact points on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body named twice is "
+		       "in contact with itself, where it folds and as parts that it falls into.\n\n"
 		       "Set first: *between* = ('slab', 'ground') and *friction* [rad], then a step in which bodies move by a quarter of a cell. Page: "
 		       "plugin/docs/classes/MpmBodyContact.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
 		v("between", &MpmBodyContact::between, 0,
-		  "Names of the two bodies, as given to mpm.fill(..., body=...), or the same name twice, for contact between parts of one body; without default.",
+		  "Names of the two bodies, as given to mpm.fill(..., body=...), or the same name twice, for contact of a body with itself; without default.",
 		  admitting("the names of two bodies, as ('slab', 'ground'), or one name twice; there is no default", areTwo));
 		v("friction", &MpmBodyContact::friction, 0, "Angle of friction [rad], from 0 to below pi/2: radians(30) of 30 degrees; without default.",
 		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", isFrictionAngle));
@@ -49,6 +49,8 @@ public:
 		  admitting("a number >= 0 [1/s], or inf", [](Real value) { return value >= 0; }));
 		v("filled", &MpmBodyContact::filled, 0,
 		  "True: water of MpmFlow fills the joint, up to half a cell wide: it passes, and presses on both faces; contact is of effective stress. Static steps.");
+		v("folds", &MpmBodyContact::folds, 0,
+		  "True, of a body named twice: where it folds, the sides are in contact, too; else they stick. Implicit steps, equal cells, one process, no MpmFlow.");
 		v("force", &MpmBodyContact::force, readonly,
 		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");

@@ -7,23 +7,12 @@
 #include "engine/conditions/bodies/bodies_past.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
-#include "engine/conditions/structures/parting.hpp"
 #include <algorithm>
 #include <map>
 #include <set>
 #include <unordered_map>
 
 namespace yade {
-
-// Features that do not go with soil parted at folds; empty: nothing.
-static string cannotFold(const Analysis& analysis, int processes)
-{
-	if (processes > 1) return "several processes";
-	if (analysis.isExplicit()) return "explicit steps";
-	if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
-	if (MpmFlow::of(analysis)) return "flow";
-	return obstacleToParting(analysis);
-}
 
 template <int Dim>
 MeetingBodies<Dim>::MeetingBodies(const MpmCondition::Group& group, const Analysis& analysis)
@@ -201,7 +190,8 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 	requireNonePast(around.points, model, analysis, layers);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
 		system->bodies.push_back(coreBody(int(b)));
-	obstacle = cannotFold(analysis, model.processes->size());
+	if (model.processes->size() > 1 && std::any_of(given.begin(), given.end(), [](const auto& contact) { return contact->folds; }))
+		throw std::invalid_argument("MpmBodyContact.folds = True does not go with several processes yet; leave it out, or run in one.");
 	for (size_t i = 0; i < given.size(); ++i) {
 		given[i]->slave = slaveOf(*given[i], around, model);
 		addMeetings(int(i), leakageOf(*given[i], around, *model.division));
@@ -219,7 +209,6 @@ template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motio
 
 template <int Dim> void MeetingBodies<Dim>::part(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model)
 {
-	if (!obstacle.empty()) return;
 	std::map<int, gimpm::FoldingBody<Dim>> folding;
 	for (const auto& meeting : system->meetings)
 		if (meeting.slave == meeting.master)

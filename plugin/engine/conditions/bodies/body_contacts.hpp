@@ -40,7 +40,6 @@ private:
 	vector<int>                               contactOf; // number of the contact by that of the pair
 	vector<int>                               layers;    // layer by the number of the body, from -1 on
 	std::shared_ptr<gimpm::BodyContacts<Dim>> system;    // its terms refer to it
-	string                                    obstacle;  // feature that does not go with soil parted at folds; empty: none
 };
 
 } // namespace yade

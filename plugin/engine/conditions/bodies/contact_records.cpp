@@ -16,7 +16,7 @@ vector<std::pair<int, int>> pairsOf(const MpmBodyContact& contact, const MpmGrid
 	vector<std::pair<int, int>> pairs;
 	for (const int one : partsOf(grid, contact.between[0]))
 		for (const int other : partsOf(grid, contact.between[1]))
-			if (!contact.isOfOne() || one <= other) pairs.emplace_back(one, other);
+			if (!contact.isOfOne() || one < other || (contact.folds && one == other)) pairs.emplace_back(one, other);
 	return pairs;
 }
 

@@ -17,7 +17,7 @@ struct ContactRecord {
 vector<int> partsOf(const MpmGrid&, const string& body);
 
 // Pairs of bodies that a contact acts between, the first one of a body of `between[0]`: of contact of a body with
-// itself, all pairs of its parts, and each part with itself.
+// itself, all pairs of its parts, and with `folds` each part and itself.
 vector<std::pair<int, int>> pairsOf(const MpmBodyContact&, const MpmGrid&);
 
 // Stresses that a contact has kept.
