@@ -13,8 +13,8 @@ namespace {
 
 /// Distance of pieces that face each other up to which their soil may share nodes [cells].
 constexpr double reachOfFolds = 2.5;
-/// Depth of a piece behind another one that it faces, at most, if one of them is pressed or not [cells]: the two faces of
-/// a film do not face each other.
+/// Depth of a piece behind another one that it faces, at most, if one of them is pressed or not [cells]: the two faces
+/// of a film do not face each other.
 constexpr double deepestPressed = 0.35, deepestFree = 0.05;
 /// Soil thinner than this does not fold, but flows as a film [cells].
 constexpr double thinnest = 0.9;
@@ -63,7 +63,8 @@ template <int Dim> std::set<Key> widened(const std::set<Key>& cells)
 /// The search for folds of one body.
 template <int Dim> class FoldSearch {
 public:
-	FoldSearch(FoldingBody<Dim>& body, int firstBit, const Grid<Dim>& grid) : body_(body), firstBit_(firstBit), grid_(grid), pieces_(grid.origin, grid.cellSize)
+	FoldSearch(FoldingBody<Dim>& body, int firstBit, const Grid<Dim>& grid)
+	        : body_(body), firstBit_(firstBit), grid_(grid), pieces_(grid.origin, grid.cellSize)
 	{
 		for (const auto& piece : body.surface->pieces) {
 			Vec<Dim> centre = Vec<Dim>::Zero();
@@ -94,7 +95,8 @@ public:
 		numberSides();
 		for (const Split& node : split_)
 			for (const auto& part : node.parts)
-				if (const int layer = layer_[side_[part[0]]]; !node.isWhole && layer > 0) own.push_back(Parting<Dim>::in(body_.layer | layer, node.key));
+				if (const int layer = layer_[side_[part[0]]]; !node.isWhole && layer > 0)
+					own.push_back(Parting<Dim>::in(body_.layer | layer, node.key));
 		for (std::size_t i = 0; i < points_.size(); ++i)
 			if (side_[i] >= 0) cloud.layer[points_[i]] = body_.layer | layer_[side_[i]];
 		for (std::size_t i = 0; i < centre_.size(); ++i)
@@ -114,7 +116,7 @@ private:
 	/// True if two pieces are the two faces of a film.
 	bool areOfFilm(int i, int j) const
 	{
-		const Vec<Dim> way  = centre_[j] - centre_[i];
+		const Vec<Dim> way = centre_[j] - centre_[i];
 		const double   h = grid_.cellSize, back = -way.dot(normal_[i]);
 		return normal_[i].dot(normal_[j]) < leastFacing && !isPressed(i) && !isPressed(j) && back > deepestFree * h && back < thinnest * h
 		        && (way + back * normal_[i]).norm() < thinnest * h / 2;
@@ -256,7 +258,7 @@ private:
 		for (const auto& [i, j] : parted)
 			for (const auto& [stray, other] : { std::pair(i, j), std::pair(j, i) }) {
 				if (size[connected.root(stray)] >= few || size[connected.root(other)] < few) continue;
-				const auto found = nearest.emplace(stray, std::pair((centreOf(i) - centreOf(j)).squaredNorm(), other));
+				const auto found    = nearest.emplace(stray, std::pair((centreOf(i) - centreOf(j)).squaredNorm(), other));
 				found.first->second = std::min(found.first->second, std::pair((centreOf(i) - centreOf(j)).squaredNorm(), other));
 			}
 		for (const auto& [stray, by] : nearest)
@@ -290,10 +292,7 @@ private:
 	}
 
 	/// Distance of a domain from a position along the worst axis [cells].
-	double awayFrom(const Vec<Dim>& x, int i) const
-	{
-		return (boxes_[i].low - x).cwiseMax(x - boxes_[i].high).maxCoeff() / grid_.cellSize;
-	}
+	double awayFrom(const Vec<Dim>& x, int i) const { return (boxes_[i].low - x).cwiseMax(x - boxes_[i].high).maxCoeff() / grid_.cellSize; }
 
 	void divideNode(Key node, const Vec<Dim>& x, const std::vector<int>& around, const std::vector<int>& numberOf)
 	{
@@ -338,12 +337,12 @@ private:
 		layer_.assign(next, 0);
 	}
 
-	/// Sides of the points behind pieces: that which most of the surface around a piece has. A corner that has got a
-	/// little into the other side has points of both behind it.
+	/// Sides of the points behind pieces: that which most of the surface around a piece has. A corner that has got
+	/// a little into the other side has points of both behind it.
 	void findSidesOfPieces()
 	{
-		constexpr double           around = 0.75; // [cells]
-		std::map<int, std::vector<int>> at;       // pieces by vertex
+		constexpr double                around = 0.75; // [cells]
+		std::map<int, std::vector<int>> at;            // pieces by vertex
 		for (const int i : near_)
 			for (const int v : body_.surface->pieces[i])
 				at[v].push_back(i);
@@ -351,12 +350,13 @@ private:
 		std::vector<int> foundFor(centre_.size(), -1);
 		for (const int i : near_) {
 			if (behind_[i] < 0 || side_[behind_[i]] < 0) continue;
-			std::vector<int>      found { i };
+			std::vector<int> found { i };
 			foundFor[i] = i;
 			std::map<int, double> area;
 			for (std::size_t n = 0; n < found.size(); ++n) {
 				const auto& piece = body_.surface->pieces[found[n]];
-				if (const int by = behind_[found[n]]; by >= 0 && side_[by] >= 0) area[side_[by]] += body_.surface->normal(piece, body_.surface->vertices).norm();
+				if (const int by = behind_[found[n]]; by >= 0 && side_[by] >= 0)
+					area[side_[by]] += body_.surface->normal(piece, body_.surface->vertices).norm();
 				for (const int v : piece)
 					for (const int next : at[v])
 						if (foundFor[next] != i && (centre_[next] - centre_[i]).norm() < around * grid_.cellSize)

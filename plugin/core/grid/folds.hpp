@@ -12,7 +12,8 @@ template <int Dim> struct FoldingBody {
 	const Surface<Dim>* surface;     ///< encloses its points
 	std::vector<double> pressure {}; ///< on its pieces, if they have contact points; those keep them
 
-	/// In this step: layers of its pieces that face others within some cells, -1 of the others; empty: there are none.
+	/// In this step: layers of its pieces that face others within some cells, -1 of the others; empty: there are
+	/// none.
 	std::vector<int> layerOfPiece {};
 };
 

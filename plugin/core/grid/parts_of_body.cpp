@@ -74,7 +74,7 @@ template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
 template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double cellSize)
 {
 	DisjointSets sets(int(boxes.size()));
-	Block<Dim> block(boxes, origin, cellSize);
+	Block<Dim>   block(boxes, origin, cellSize);
 	if (block.isFilled()) {
 		for (int b = 0; b < int(boxes.size()); ++b)
 			forCellsOf(boxes[b], origin, cellSize, [&](const Index<Dim>& cell) {

@@ -8,12 +8,12 @@
 namespace gimpm::testFolds {
 namespace {
 
-	/// Two legs with a slot between them, on a base: from x = 0 to 7, the slot from x = 3 on, above y = 2; in space one
-	/// cell thick. With layers of bodies of one bit, in layer 1.
+	/// Two legs with a slot between them, on a base: from x = 0 to 7, the slot from x = 3 on, above y = 2; in space
+	/// one cell thick. With layers of bodies of one bit, in layer 1.
 	template <int Dim> struct Slotted {
 		explicit Slotted(double slot)
 		{
-			constexpr double half = 0.25;
+			constexpr double half  = 0.25;
 			Index<Dim>       count = Index<Dim>::Constant(2);
 			count[0] = int(std::lround(14 + slot / half / 2)), count[1] = 16;
 			std::vector<DomainBox<Dim>> boxes;
@@ -46,8 +46,8 @@ namespace {
 	template <class Dimension> using Folds = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Folds, BothDimensions, DimensionName);
 
-	/// The sides of a slot of half a cell have nodes of their own, from two cells above its tip on; points have layers
-	/// by their sides, and pieces those of the points behind them.
+	/// The sides of a slot of half a cell have nodes of their own, from two cells above its tip on; points have
+	/// layers by their sides, and pieces those of the points behind them.
 	TYPED_TEST(Folds, SidesOfASlotHaveNodesOfTheirOwn)
 	{
 		constexpr int      Dim = TypeParam::value;
@@ -78,7 +78,8 @@ namespace {
 		}
 	}
 
-	/// A slot of two cells keeps its sides apart without nodes of their own, but they are watched; one of four is not.
+	/// A slot of two cells keeps its sides apart without nodes of their own, but they are watched; one of four is
+	/// not.
 	TYPED_TEST(Folds, WideSlotsNeedNoNodes)
 	{
 		constexpr int Dim = TypeParam::value;

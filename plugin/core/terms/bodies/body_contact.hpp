@@ -31,7 +31,8 @@ template <int Dim> struct MeetingBody {
 	std::string  name;
 	int          layer = 0; ///< layer of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
-	/// In this step: layers of the pieces that face others of the body nearby, -1 of the others; empty: there are none.
+	/// In this step: layers of the pieces that face others of the body nearby, -1 of the others; empty: there are
+	/// none.
 	std::vector<int> layerOfPiece {};
 
 	/// Makes contact independent of the diagonals of rectangles, before the first step.
@@ -155,20 +156,20 @@ private:
 	};
 	using Tangent = typename PairForce<Dim>::Tangent;
 
-	void                addContactPoints(int meeting, const StepContext<Dim>&);
-	void                findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
-	void                makeLaws(const StepContext<Dim>&);
-	void                findFirst(ContactPoint&);
-	bool                isDeep(const ContactPoint&) const;
-	void                leaveOutDeepFolds();
-	void                keepApart(ContactPoint* begin, ContactPoint* end);
-	void                takeWater(const Eigen::VectorXd& pressures, bool flows);
-	bool                isInFilledJoint(const ContactPoint&) const;
-	void                addWedge(const ContactPoint&, double pressure);
-	void                begin(ContactPoint&);
-	bool                isFold(const BodyMeeting<Dim>& meeting) const { return meeting.slave == meeting.master; }
-	int                 layerOf(int body, int piece) const;
-	bool                mayTouch(const ContactPoint&, int piece) const;
+	void                          addContactPoints(int meeting, const StepContext<Dim>&);
+	void                          findNear(ContactPoint&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void                          makeLaws(const StepContext<Dim>&);
+	void                          findFirst(ContactPoint&);
+	bool                          isDeep(const ContactPoint&) const;
+	void                          leaveOutDeepFolds();
+	void                          keepApart(ContactPoint* begin, ContactPoint* end);
+	void                          takeWater(const Eigen::VectorXd& pressures, bool flows);
+	bool                          isInFilledJoint(const ContactPoint&) const;
+	void                          addWedge(const ContactPoint&, double pressure);
+	void                          begin(ContactPoint&);
+	bool                          isFold(const BodyMeeting<Dim>& meeting) const { return meeting.slave == meeting.master; }
+	int                           layerOf(int body, int piece) const;
+	bool                          mayTouch(const ContactPoint&, int piece) const;
 	std::vector<std::vector<int>> verticesOf(const BodyMeeting<Dim>&) const;
 	int                 wholeOf(const ContactPoint& contactPoint) const { return facets_[meetingOf(contactPoint).slave].whole[contactPoint.piece]; }
 	Positions           positionsAt(const Eigen::VectorXd& d) const;

@@ -17,8 +17,8 @@ template <int Dim> struct Facets {
 	std::vector<Piece>                          pieces;
 	std::vector<int>                            whole; ///< piece of the surface that each piece is part of
 
-	/// Facets of the body whose nodes are in a layer, or, if not empty, in that of each piece of the surface where that
-	/// is not less than 0.
+	/// Facets of the body whose nodes are in a layer, or, if not empty, in that of each piece of the surface where
+	/// that is not less than 0.
 	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer, const std::vector<int>& layerOfPiece = {});
 
 	bool      isThere(const Piece&) const; ///< all of its vertices

@@ -14,8 +14,8 @@ public:
 	Real                stiffness    = 10;
 	Real                permittivity = std::numeric_limits<Real>::infinity();
 	bool                filled = false, folds = false;
-	Vector3r            force        = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	Vector3r            moment       = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r            force    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r            moment   = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	int                 touching = 0, slipping = 0;
 	int                 slave = -1;
 	vector<Real>        pressures;
