@@ -30,7 +30,7 @@ R, p0, e0, k = 0.01785, 1e5, 1.2, 1e-9  # radius [m], effective stress [Pa], voi
 soil = dict(density=1700, shearModulus=2.5e6, criticalStateRatio=0.9, compressionIndex=0.09, swellingIndex=0.02, preconsolidation=p0, referencePressure=1e3)
 cv = k * p0 / (9810 * soil['compressionIndex'])  # compressionIndex is lambda / (1 + e)
 cu = soil['criticalStateRatio'] / 2 * p0 * 0.5**(1 - soil['swellingIndex'] / soil['compressionIndex'])
-h, tip, shoulder = R / options.cells, R / np.tan(np.radians(30)), -4 * R
+h, tip, shoulder = R / options.cells, R / np.tan(np.radians(30)), -R
 way = options.travel * R
 
 
