@@ -434,6 +434,11 @@ def test_cone_with_pore_pressures(yade):
 	assert (run.folder / 'out/cptu/cptu.png').stat().st_size > 20000
 
 
+def test_cone_with_pore_pressures_and_halved_edges(yade):
+	run = yade(root / 'examples' / 'penetration' / 'cptu.py', '--cells', 2, '--ends', '', '--velocities', '1')
+	assert re.search(r'in 128 steps', run.stdout) and 'failed' not in run.stdout + run.stderr, str(run)  # all of the way
+
+
 def test_wheel(yade):
 	"""All energy of its drive is found again."""
 	run = yade(root / 'examples' / 'penetration' / 'wheel.py', '--cells', 4, '--way', 0.4)

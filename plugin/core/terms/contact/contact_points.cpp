@@ -258,8 +258,8 @@ private:
 	/// Attaches it to the soil that will be in front of it as the step ends: all that the body moves along its face
 	/// where it is smooth, else as far as soil slid in the last step. Soil in front of an edge as the step begins
 	/// is beyond it as the step ends, and would be pushed on: the edge would act as if it were wider by half of the
-	/// slip. False where cells do not follow bodies, where there is no soil ahead, and where water flows: steps of a
-	/// cone around which water drains fail then.
+	/// slip. False where cells do not follow bodies, where there is no soil ahead, and where water flows: steps of
+	/// a cone around which it drains fail then.
 	bool placeAhead(ContactPoint<Dim>& made, const ContactRecord<Dim>* record, const SurfacePoint<Dim>& point, int layer) const
 	{
 		if (!step_.grid.isAdaptive || step_.water || system_.kind == StepKind::dynamic) return false;
