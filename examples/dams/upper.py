@@ -64,11 +64,9 @@ def shaken(quake):
 		O.materials.append(MpmMohrCoulombMat(label=name, young=options.young * (4 if name == 'alluvium' else 1), poisson=0.3, density=density, cohesion=2e3, frictionAngle=radians(angle), dilationAngle=0))
 	for name in 'upstream', 'core', 'downstream': O.materials.append(MpmTrescaMat(label=name, young=options.young, poisson=0.3, density=1990, undrainedStrength=1e9))
 	O.bodies.append(mpm.fill(mpm.polygon(outline), grid, 2, zone))
-	rock = dict(motion=quake.motion(start=2)) if quake else {}
-	boundaries = [MpmBoundary(max=(inf, 0, inf), fix='xy', **rock), MpmBoundary(max=(-120, inf, inf), fix='x', **rock), MpmBoundary(min=(132, -inf, -inf), fix='x', **rock)]
+	held = lambda **rock: [MpmBoundary(max=(inf, 0, inf), fix='xy', **rock), MpmBoundary(max=(-120, inf, inf), fix='x', **rock), MpmBoundary(min=(132, -inf, -inf), fix='x', **rock)]
 	common = dict(grid=grid, gravity=(0, -9.81, 0), water=[MpmWater(pressure=lambda p: 9810 * max(0, table(p[0]) - p[1]))], fBar=True, verbosity=0)
-	still = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(-120, inf, inf), fix='x'), MpmBoundary(min=(132, -inf, -inf), fix='x')]
-	O.engines = [MpmImplicitEngine(boundaries=still, **common)]
+	O.engines = [MpmImplicitEngine(boundaries=held(), **common)]
 	O.dt = 1 / 4
 	for _ in range(4): O.step()  # the dam as it stood
 	points = mpm.arrays()
@@ -82,7 +80,7 @@ def shaken(quake):
 			ratio[here] = np.where(y < table(x), options.factor * residual(blows), np.tan(np.radians(35)))[here]
 	soft = np.isin(material, ('upstream', 'core', 'downstream'))
 	mpm.assign(ids=points['id'][soft], undrainedStrength=(ratio * before)[soft])
-	O.engines = [MpmDynamicEngine(boundaries=boundaries, gravityCurve=[(0, 1)], loadTime=O.time, rayleigh=mpm.rayleigh(0.05, 2), scheme='generalised-alpha', **common)]
+	O.engines = [MpmDynamicEngine(boundaries=held(motion=quake.motion(start=2)), gravityCurve=[(0, 1)], loadTime=O.time, rayleigh=mpm.rayleigh(0.05, 2), scheme='generalised-alpha', **common)]
 	O.dt = 0.02
 	start = points['pos'][:, 0].copy()
 	base = np.argmin(y)

@@ -27,8 +27,8 @@ public:
 	virtual ~Attribute() = default;
 	bool is(AttributeFlag flag) const { return flags & flag; }
 
-	// How often Python has assigned a value, of any object; and true if it has had one by reference, which may be
-	// changed at any time.
+	// Number of values that Python has assigned, of any object; and true if it has had one by reference, which may
+	// be changed at any time.
 	long assignments() const { return assignments_; }
 	bool isLent() const { return isLent_; }
 
@@ -184,7 +184,7 @@ public:
 	py::dict read(const Serializable&) const;
 	void     requireAdmitted(const Serializable&) const;
 
-	// Of all attributes together, see Attribute.
+	// Sums over all attributes, see Attribute.
 	long assignments() const;
 	bool areLent() const;
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/folds.hpp"
-#include "core/grid/cells_around.hpp"
+#include "core/grid/by_cell.hpp"
 #include "core/grid/disjoint_sets.hpp"
 #include "core/grid/parting.hpp"
 #include "core/grid/parts_of_body.hpp"
 #include <map>
 #include <set>
-#include <unordered_map>
 
 namespace gimpm {
 namespace {
@@ -22,33 +21,6 @@ constexpr double thinnest = 0.9;
 constexpr double leastFacing = -0.3;
 /// Gap between domains that are neighbours, at most [cells].
 constexpr double gapOfNeighbours = 0.75;
-
-/// Numbers by the cells of an edge length that have them.
-template <int Dim> class ByCell {
-public:
-	ByCell(const Vec<Dim>& origin, double size) : origin_(origin), size_(size) { }
-
-	Index<Dim> cell(const Vec<Dim>& x) const { return ((x - origin_) / size_).array().floor().template cast<int>(); }
-	void       add(const Index<Dim>& cell, int number) { numbers_[Grid<Dim>::key(cell)].push_back(number); }
-
-	template <class F> void forAll(const Index<Dim>& cell, F&& f) const
-	{
-		if (const auto found = numbers_.find(Grid<Dim>::key(cell)); found != numbers_.end())
-			for (const int number : found->second)
-				f(number);
-	}
-	/// Calls f(number) for those of the cell of a position and the cells around it.
-	template <class F> void forNear(const Vec<Dim>& x, F&& f) const
-	{
-		for (int n = 0; n < cellsAround<Dim>; ++n)
-			forAll(cell(x) + offsetAround<Dim>(n), f);
-	}
-
-private:
-	Vec<Dim>                                  origin_;
-	double                                    size_;
-	std::unordered_map<Key, std::vector<int>> numbers_;
-};
 
 /// Keys of cells, and of the cells around them.
 template <int Dim> std::set<Key> widened(const std::set<Key>& cells)

@@ -9,15 +9,15 @@ namespace yade {
 // values of points: this plugin, which counts its PointWriters, or Python, the assignments of which are counted.
 class KeptColumns {
 public:
-	// At the beginning of a step, the columns that serve; else none.
+	// Takes the columns as a step begins, if they serve; else none.
 	template <int Dim> LeftColumns<Dim> take();
 
 	void wrote() { ++seen; } // the engine's own PointWriter
 
-	// At its end.
+	// Keeps those of a step that has ended.
 	template <int Dim> void keep(gimpm::PointCloud<Dim>&&, const std::vector<gimpm::Material>&);
 
-	// Between two steps: null if they do not serve.
+	// Columns between two steps; null if they do not serve.
 	template <int Dim> const gimpm::PointCloud<Dim>* cloud() const;
 
 private:

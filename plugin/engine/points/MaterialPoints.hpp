@@ -46,7 +46,7 @@ class PointWriter {
 public:
 	PointWriter() { ++made; }
 
-	// For results that no column of the core begins with.
+	// Mark of results that no column of the core begins with.
 	struct OfResults { };
 	explicit PointWriter(OfResults) { }
 

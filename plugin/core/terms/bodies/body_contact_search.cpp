@@ -218,7 +218,7 @@ template <int Dim> bool BodyContact<Dim>::isDeep(const ContactPoint& contactPoin
 	return contactPoint.first && contactPoint.closed <= -deepestAtStart * cellSize_;
 }
 
-/// Where films of soil that flows fold, what is deeper than contact admits stays as it is.
+/// Films of soil that flows may fold: what is deeper than contact admits stays as it is.
 template <int Dim> void BodyContact<Dim>::leaveOutDeepFolds()
 {
 	const auto isLeftOut = [&](const ContactPoint& contactPoint) { return isFold(meetingOf(contactPoint)) && isDeep(contactPoint); };
