@@ -138,7 +138,7 @@ def anchor(title):
 
 
 def replaceAll():
-	"""Write all pages but those that have writers of their own."""
+	"""Write all pages but that of the benchmarks, which has a writer of its own."""
 	for study in names():
 		if indexOf(os.path.join(home, study)): pages.replace(os.path.join(home, study + '.md'), page(study))
 
