@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/varying_cells.hpp"
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 
@@ -20,37 +20,44 @@ template <int Dim> std::array<double, 1 << Dim> valuesAt(const Vec<Dim>& positio
 	return value;
 }
 
-/// Linear function a + B d of the distance d from a node, in cells, fitted to the deformation gradients of points
-/// near it.
+/// Linear function a + B d of the distance d from a node, in cells, fitted to the deformation gradients F of points
+/// near it by weighted least squares: B = cov(F, d) cov(d, d)^-1, a = mean(F) - B mean(d).
 template <int Dim> class NodalFit {
 public:
+	NodalFit() { products_.fill(Mat<Dim>::Zero()); }
+
 	void add(const Mat<Dim>& F, const Vec<Dim>& distance, double weight)
 	{
-		Basis basis;
-		basis << 1, distance;
-		const Basis weighted = weight * basis;
-		moments_.noalias() += weighted * basis.transpose();
-		sums_.noalias() += Eigen::Map<const Components>(F.data()) * weighted.transpose();
+		const Vec<Dim> weighted = weight * distance;
+		weight_ += weight;
+		distances_ += weighted;
+		squares_ += weighted * distance.transpose();
+		F_ += weight * F;
+		for (int a = 0; a < Dim; ++a)
+			products_[a] += weighted[a] * F;
 	}
 
-	/// Its value at the node; the mean where the points are in a row.
+	/// Its value a at the node; the mean where the points are in a row.
 	Mat<Dim> value() const
 	{
-		constexpr double singular                  = 1e-6;
-		Mat<Dim>         F                         = Mat<Dim>::Zero();
-		const auto       factor                    = moments_.ldlt();
-		const bool       isFull                    = factor.vectorD().minCoeff() > singular * moments_(0, 0);
-		const Basis      weights                   = isFull ? Basis(factor.solve(Basis::Unit(0))) : Basis(Basis::Unit(0) / moments_(0, 0));
-		Eigen::Map<Components>(F.data()).noalias() = sums_ * weights;
+		constexpr double singular = 1e-6;
+		const Mat<Dim>   mean     = F_ / weight_;
+		const Vec<Dim>   centre   = distances_ / weight_;
+		const Mat<Dim>   spread   = squares_ / weight_ - centre * centre.transpose();
+		if (!(spread.determinant() > singular * std::pow(spread.diagonal().maxCoeff(), Dim - 1))) return mean;
+		const Vec<Dim> share = spread.inverse() * centre;
+		Mat<Dim>       F     = mean;
+		for (int a = 0; a < Dim; ++a)
+			F -= share[a] * (products_[a] / weight_ - centre[a] * mean);
 		return F;
 	}
 
 private:
-	using Basis      = Eigen::Matrix<double, Dim + 1, 1>;
-	using Components = Eigen::Matrix<double, Dim * Dim, 1>;
-
-	Eigen::Matrix<double, Dim + 1, Dim + 1>   moments_ = Eigen::Matrix<double, Dim + 1, Dim + 1>::Zero();
-	Eigen::Matrix<double, Dim * Dim, Dim + 1> sums_    = Eigen::Matrix<double, Dim * Dim, Dim + 1>::Zero();
+	double                    weight_    = 0;
+	Vec<Dim>                  distances_ = Vec<Dim>::Zero(); // this and what follows, summed with the weights
+	Mat<Dim>                  squares_   = Mat<Dim>::Zero();
+	Mat<Dim>                  F_         = Mat<Dim>::Zero();
+	std::array<Mat<Dim>, Dim> products_; // of the distances along each axis and F
 };
 
 /// Bilinear between the values at the nodes of cells with points.
