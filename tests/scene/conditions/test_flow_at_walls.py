@@ -131,7 +131,7 @@ def soil(label, young):
 
 def test_water_passes_the_joint_of_two_bodies(yade):
 	"""A column of two bodies drains as one does (permittivity=inf, the default); where nothing passes the lower one keeps its pressure; a leaky joint has what two layers and it let pass."""
-	one, two, tight, leaky = yade(
+	one, two, tight, ofPoints, leaky = yade(
 	        joint + '''
 h, young, q, k, psi = .125, 1e6, 1e3, 1e-7, 2e-7
 def column(permittivity, bottom=None):
@@ -158,6 +158,11 @@ for permittivity in None, inf, 0:
 	column(permittivity)
 	O.run(6, wait=True)
 	found.append(pressures())
+column(inf)
+O.materials[0].conductivity = 1e-12
+mpm.assign(conductivity=[1e-7] * len(O.bodies))
+O.run(6, wait=True)
+found.append(pressures())
 drains = column(psi, bottom=500)
 O.dt = 1e8
 O.run(2, wait=True)
@@ -166,6 +171,7 @@ print(json.dumps(found))
 '''
 	).result
 	assert two == pytest.approx(one, rel=.005)
+	assert ofPoints == pytest.approx(two, rel=1e-9) # by the conductivity of the points, not of their material
 	assert tight[0] == pytest.approx(1e3, rel=1e-6) and tight[1] < .5 * one[1]
 	assert leaky == pytest.approx(1, rel=.005)
 

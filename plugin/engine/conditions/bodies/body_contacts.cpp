@@ -178,8 +178,11 @@ template <int Dim> Real MeetingBodies<Dim>::leakageOf(const MpmBodyContact& cont
 	if (std::isfinite(contact.permittivity)) return contact.permittivity / flow->unitWeight;
 	const int one = grid.bodyNamed(contact.between[0]), other = grid.bodyNamed(contact.between[1]);
 	Real      least = std::numeric_limits<Real>::infinity();
-	for (const MaterialPoint& point : around.points)
-		if (point.state->body == one || point.state->body == other) least = std::min(least, point.material->conductivity.horizontal);
+	for (const MaterialPoint& point : around.points) {
+		if (point.state->body != one && point.state->body != other) continue;
+		const Real* own = point.state->parameter("conductivity");
+		least           = std::min(least, own ? *own : point.material->conductivity.horizontal);
+	}
 	least = -division.largest(-least);
 	return gimpm::conductanceOfSoil * least / grid.smallestCell() / flow->unitWeight;
 }
