@@ -18,6 +18,7 @@ private:
 	struct Task;
 
 	void iterate(Task&, LinearMethod);
+	bool iterateWithDiagonal(Task&);
 	bool iterateWithMultigrid(Task&);
 	bool setUp(Task&);
 

@@ -12,6 +12,9 @@ constexpr double smallestPivot = 1e-12;
 /// 300 of them.
 constexpr int patience = 300;
 
+/// Iterations with the diagonal after which the residual of the system must have fallen.
+constexpr int firstTrial = 100;
+
 /// Iterations with multigrid, which take as long as what the diagonal is given.
 constexpr int mostWithMultigrid = 250;
 

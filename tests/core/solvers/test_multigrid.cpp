@@ -121,6 +121,10 @@ namespace {
 		        << "made anew, without trying";
 		EXPECT_EQ(solver.iterativeEffort().hierarchies, 2);
 		EXPECT_LT(solver.iterativeEffort().iterations - before, 100);
+		LinearSolver bent;
+		ASSERT_TRUE(bent.solveIteratively(K, Eigen::VectorXd::Ones(K.size()), x, 1e-8, LinearMethod::automatic));
+		EXPECT_GT(bent.iterativeEffort().iterations, 100);
+		EXPECT_LT(bent.iterativeEffort().iterations, 150) << "where the residual grows, the diagonal is given up soon";
 		ASSERT_TRUE(diagonal.solveIteratively(K, b, x, 1e-1, LinearMethod::automatic) && solver.solveIteratively(K, b, y, 1e-1));
 		EXPECT_EQ(x, y) << "where the diagonal suffices, nothing changes";
 	}
