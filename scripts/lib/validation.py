@@ -38,7 +38,7 @@ runs = {
                 'chamber.py', 'chamber.py --law constant', 'chamber.py --pressure 400e3 --densities "0.4 0.8"', 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
         'adaptive': ['adaptive.py', 'slip.py'],
-        'grains_on_soil': ['grains_on_soil.py', 'plough_alone.py --cell 0.05'],
+        'grains_on_soil': ['grains_on_soil.py', 'plough_alone.py --cell 0.05', 'energy.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py', 'dry_grains.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],
         'free_bodies': ['gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],

@@ -12,6 +12,8 @@ struct ContactEnergy {
 	double   work   = 0; ///< on the soil in the last step that was accepted, with the forces at its end [J]
 	/// Work in that step beyond what contact had stored, which is that of no body [J].
 	double energyGain = 0;
+	double friction   = 0; ///< energy that friction with rigid bodies has dissipated in that step [J]
+	double penalties  = 0; ///< energy that their springs have taken in it, and not given back [J]
 };
 
 } // namespace gimpm

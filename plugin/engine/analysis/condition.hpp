@@ -55,16 +55,21 @@ template <int Dim> struct StepOutcome {
 // Work in a time step [J], by its part in the balance of energy.
 struct Work {
 	Real ofLoads = 0, ofBoundaries = 0;
-	Real ofContacts = 0, given = 0; // given: part of that which no body has worked
+	Real ofContacts = 0, given = 0;       // given: part of that which no body has worked
+	Real ofFriction = 0, ofPenalties = 0; // taken by contact with rigid bodies: dissipated, and by its springs
 
 	Work& operator+=(const Work& other)
 	{
 		ofLoads += other.ofLoads, ofBoundaries += other.ofBoundaries, ofContacts += other.ofContacts, given += other.given;
+		ofFriction += other.ofFriction, ofPenalties += other.ofPenalties;
 		return *this;
 	}
 };
 
-inline Work workOf(const gimpm::ContactEnergy& contact) { return { 0, 0, contact.work, std::max(0., contact.energyGain) }; }
+inline Work workOf(const gimpm::ContactEnergy& contact)
+{
+	return { 0, 0, contact.work, std::max(0., contact.energyGain), contact.friction, contact.penalties };
+}
 
 // Springs that limit the length of explicit steps: the stiffest, over Young's modulus per cell [-], and what makes it
 // smaller.

@@ -90,6 +90,8 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 	data["gridWork"]        = gridWork;
 	data["plasticWork"]     = plasticWork;
 	data["dampingWork"]     = dampingWork;
+	data["frictionWork"]    = frictionWork;
+	data["penaltyWork"]     = penaltyWork;
 	data["loosePoints"]     = loosePoints;
 	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork
 	        + dampingWork + mergedEnergy;

@@ -14,7 +14,8 @@ public:
 	string    scheme = "newmark";
 	Real      beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
 	int       loosePoints = 0;
-	Real      loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
+	Real loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0, frictionWork = 0,
+	     penaltyWork = 0;
 	// When the first step began; NaN: there was none.
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN();
 	vector<Vector3r> reactionsBefore;    // those of the step before
@@ -70,6 +71,9 @@ public:
 		  finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);
+		v("frictionWork", &E::frictionWork, readonly, "Energy that friction between rigid bodies and the material has dissipated so far [J].", finite);
+		v("penaltyWork", &E::penaltyWork, readonly,
+		  "Energy that penalties of contact with rigid bodies have taken so far [J]: stored, or lost where pressed surfaces part.", finite);
 		v("loosePoints", &E::loosePoints, noSave | readonly,
 		  "Points of the last step in cells with too few to tell the velocities of their nodes, as those that fly alone.", AnyValue());
 		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());

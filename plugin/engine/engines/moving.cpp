@@ -123,6 +123,8 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	engine.dampingWork += rayleigh->work;
 	engine.contactWork += sum.ofContacts;
 	engine.givenByContact += sum.given;
+	engine.frictionWork += sum.ofFriction;
+	engine.penaltyWork += sum.ofPenalties;
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.gridWork += motion->gridWork;

@@ -97,7 +97,7 @@ void addPlotData(py::object pythonClass, const py::object& function)
 	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
 	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]; contact0_y: force of the soil on all bodies of contacts[0] [N], contact0_touching: corners that touch them; body7_y, body7_torque_z: force [N] and torque [N m] on body 7, if it does not move freely. With *flow* waterIn, waterOut, waterStored: volumes of water since the first step [m³]; drain0: discharge of flow.drains[0] [m³/s].\n\n"
 	        "Of a MpmDynamicEngine also absorbing0_y: force of absorbing[0] on the body, for all directions [N]; momentum_x, momentum_y [kg m/s]; angularMomentum_z, about the origin [kg m²/s]; kineticEnergy; loadWork, boundaryWork, "
-	        "contactWork, impactWork, ghostWork, gridWork, plasticWork, dampingWork, loosePoints: its attributes; energyImbalance: kinetic and elastic energy less those before the first step and less what was added "
+	        "contactWork, impactWork, ghostWork, gridWork, plasticWork, dampingWork, frictionWork, penaltyWork, loosePoints: its attributes; energyImbalance: kinetic and elastic energy less those before the first step and less what was added "
 	        "and taken since, all [J], NaN where elasticEnergy is.\n\nEnergies and forces are per metre of thickness in plane "
 	        "strain.\n\nRaises ValueError for a body that is no complete material point.");
 }

@@ -248,6 +248,24 @@ print(json.dumps([list(solver.contacts[0].forces[0]), block.state.mass * 9.81, l
 	assert slipping[0] >= touching[0] - 1 and abs(force[0] / (-math.tan(0.2) * weight) - 1) < 0.02
 
 
+def test_energy_of_a_block_that_slides_to_rest_is_found_in_friction(yade):
+	"""A block is thrown along stiff soil. Friction has dissipated its energy; and what soil, friction and penalties get is what the block has lost."""
+	kinetic, friction, lost, parts, path = yade(scene + '''
+solver = soil(young=1e8, size=(3, 1), engine=MpmDynamicEngine, scheme='generalised-alpha', rhoInfinity=0.5, dt=2e-3, contacts=[MpmContact(friction=0.2, mask=1, implicit=True)])
+block = box((1, 1.2, 0), (0.4, 0.2, 0.5))
+O.run(100, wait=True)
+block.state.vel = (0.5, block.state.vel[1], 0)
+own = lambda: block.state.mass * (block.state.vel.squaredNorm() / 2 + 9.81 * block.state.pos[1]) + block.state.inertia[2] * block.state.angVel.squaredNorm() / 2
+names = 'contactWork', 'frictionWork', 'penaltyWork'
+first, before, start = own(), [getattr(solver, name) for name in names], block.state.pos[0]
+O.run(180, wait=True)
+after = [getattr(solver, name) for name in names]
+print(json.dumps([block.state.mass * 0.5**2 / 2, after[1] - before[1], first - own(), sum(after) - sum(before), [block.state.pos[0] - start, block.state.vel[0]]]))
+''').result
+	assert abs(path[0] / (0.5**2 / 2 / (9.81 * math.tan(0.2))) - 1) < 0.02 and abs(path[1]) < 0.01
+	assert abs(friction / kinetic - 1) < 0.02 and abs(parts / lost - 1) < 0.01
+
+
 def test_what_cannot_be_solved_is_refused_by_name(yade):
 	block = 's = soil(); b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); '
 	dynamic = 's = soil(engine=MpmDynamicEngine, dt=1e-3); b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); '

@@ -460,6 +460,13 @@ def test_grains_on_soil(yade):
 	assert np.allclose(found, (1.91, 1.84, 0.89, 1.10), rtol=0.02)  # as on its page, with coarse cells
 
 
+def test_energy_of_grains_on_soil(yade):
+	"""A pair of grains, one of which has met the other and the soil: friction and penalties take their parts, and nothing is missing."""
+	run = yade(root / 'examples' / 'grains_on_soil' / 'energy.py', '--rows', 1, '--seconds', 0.12, '--every', 20)
+	assert abs(numbers(r'found again: (\S+) of it', run.stdout)[0] - 1) < 0.015
+	assert all(share > 1 for share in numbers(r'friction on the soil: (\S+) %\npenalties of that contact: (\S+) %', run.stdout))
+
+
 def test_waves(yade):
 	"""Second order in time and space; what slides and rolls by the closed forms."""
 	scenes = 'bar', 'pulse', 'steps', 'mass', 'block', 'sphere'

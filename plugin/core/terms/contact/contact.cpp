@@ -178,10 +178,14 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work       = 0;
 	system_.energyGain = system_.kind == StepKind::dynamic ? gainOfEnergy(system_, found_.points, kinematics_, d) : 0;
-	kinematics_.forTouching(d, [&](const auto& point, const auto&, const Touch<Dim>& touched) {
+	system_.friction = system_.penalties = 0;
+	kinematics_.forTouching(d, [&](const auto& point, const Approach<Dim>& near, const Touch<Dim>& touched) {
 		auto& r   = records[&point - found_.points.data()];
 		r.touches = true, r.slips = touched.slips, r.normalForce = touched.normalForce, r.tangentialForce = touched.tangentialForce;
 		system_.work += touched.force().dot(point.distribution.displacement(d));
+		const double dissipated = dissipation(point.law, near, touched);
+		system_.friction += dissipated;
+		system_.penalties -= touched.force().dot(near.slip) + dissipated;
 		kinematics_.addLoads(point, r.position, touched);
 	});
 	if (system_.kind == StepKind::dynamic && !step_.grid.axisymmetric) turnContactPoints(system_, kinematics_, d);

@@ -76,6 +76,13 @@ template <int Dim> struct Touch {
 	Vec<Dim> force() const { return normalForce * normal + tangentialForce; } ///< on the soil
 };
 
+/// Energy that the slip of a step dissipates: tangential force times the slip that its spring does not take [J].
+template <int Dim> double dissipation(const ContactLaw<Dim>& law, const Approach<Dim>& near, const Touch<Dim>& touched)
+{
+	if (!touched.slips || !(law.tangentialStiffness > 0)) return 0;
+	return touched.tangentialForce.dot((near.tangentialForce - touched.tangentialForce) / law.tangentialStiffness - near.slip);
+}
+
 /// Force of a rigid body on one contact point of the soil: the trial of the tangential force is a penalty on the slip
 /// since the contact point began to stick. None where the gap is wider than the tolerance. Within it a contact point
 /// that is not pressed counts as sticking in the derivative: a body that only touches is held.
