@@ -34,18 +34,9 @@ friction = np.radians(30)
 
 
 def tested(seed):
-	"""Friction angle at the peak and over the last third, dilation angle at the peak [degrees] and shortening from the peak to half of the fall, means of the tests of one sample; the last curve."""
-	layer, angles = grains.Layer(options.sample / options.grains, options.sample / options.grains, L / options.grains, seed, friction), []
-	for pressure in map(float, options.pressures.split()):
-		test = layer.biaxial(pressure, options.strain, readings=30)
-		along, growth, volume = -test['axialStrain'], -test['stress_yy'], test['volumetricStrain']
-		mobilised = growth / (growth + 2 * pressure)
-		peak = max(2, mobilised.argmax())
-		near = slice(max(0, peak - 3), peak + 4)
-		opens = np.polyfit(along[near], volume[near], 1)[0]
-		half = along[peak:][mobilised[peak:] < (mobilised.max() + mobilised[-10:].mean()) / 2]
-		angles.append([*np.degrees(np.arcsin([mobilised.max(), mobilised[-10:].mean(), opens / (2 + opens)])), half[0] - along[peak] if len(half) else options.strain])
-	return np.mean(angles, axis=0), along, np.degrees(np.arcsin(mobilised))
+	"""Strength of a sample, as of grains.strength."""
+	size = options.sample / options.grains
+	return grains.strength(grains.Layer(size, size, L / options.grains, seed, friction), list(map(float, options.pressures.split())), options.strain)
 
 
 def fallen(seed, aspect):

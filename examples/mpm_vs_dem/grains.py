@@ -15,6 +15,7 @@ O = Omega()
 young, adhesion, density = 2e7, 8e4, 2500.  # grains: stiffness and strength of contacts [Pa], density [kg/m3]
 stretch = 0.2  # mean diameters by which a contact can be pulled apart before it breaks
 spread = 0.3  # radii are within this part of the mean
+apart = 1.15  # vertical distance of grains that fall into a silo, over that in a layer
 compaction = 5e3  # pressure [Pa] under which grains are packed
 
 
@@ -33,8 +34,8 @@ def _engines(diameter, adhesive, further=[], gravity=(0, 0, 0)):
 	contacts = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=adhesive)
 	return [
 	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.075 * diameter),
-	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom()], [contacts, Ip2_FrictMat_FrictMat_FrictPhys()],
+	        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Box_Aabb(), Bo1_Wall_Aabb()], verletDist=0.075 * diameter),
+	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Box_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [contacts, Ip2_FrictMat_FrictMat_FrictPhys()],
 	                        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(), Law2_ScGeom_FrictPhys_CundallStrack()]),
 	        *further,
 	        *([PyRunner(iterPeriod=50, initRun=True, command=f'import sys; sys.modules["grains"].makeDuctile({stretch * diameter})')] if adhesive else []),
@@ -83,6 +84,7 @@ class Layer:
 		O.engines = _engines(diameter, adhesive=False, further=[packing])
 		O.run(300000, wait=True)
 		self.width, self.height = O.cell.size[0], O.cell.size[1]
+		self.packed = self.grains()
 		self.density = sum(b.state.mass for b in O.bodies) / (self.width * self.height * self.thickness)
 		O.cell.velGrad = Matrix3.Zero
 		O.cell.trsf = Matrix3.Identity
@@ -177,8 +179,8 @@ def grainArrays(thickness):
 	}
 
 
-def columnScene(layer, height, length, front, g):
-	"""Replace the scene by a column of rough grains, *length* by *height* [m], out of a layer, at rest under gravity *g* between smooth walls; the base is as cutScene's. Takes the right wall away. Returns the ids of the grains."""
+def betweenWalls(layer, height, length, front, g):
+	"""Replace the scene by rough grains out of a layer, *length* by *height* [m], at rest under gravity *g* between smooth walls; the base is as cutScene's. Returns the ids of grains and walls."""
 	x, y, radius = layer.grains().T
 	diameter, width = layer.diameter, layer.width
 	O.reset()
@@ -192,6 +194,62 @@ def columnScene(layer, height, length, front, g):
 	left, right = (O.bodies.append(utils.wall(at, axis=0, sense=sense, material='wall')) for at, sense in ((0, 1), (length, -1)))
 	O.engines = _engines(diameter, adhesive=False, gravity=(0, -g, 0))
 	while O.iter < 3000 or max(O.bodies[i].state.vel.norm() for i in ids) > 0.02 * np.sqrt(g * diameter): O.run(500, wait=True)
-	O.bodies.erase(right)
-	O.engines[-1].damping, O.engines[-1].dampGravity = 0.05, False
+	return ids, left, right
+
+
+def columnScene(layer, height, length, front, g):
+	"""The same without the right wall: a column of grains that is let go. Returns the ids of the grains."""
+	ids, _, right = betweenWalls(layer, height, length, front, g)
+	letGo(right)
 	return ids
+
+
+def _settle(ids, speed2):
+	"""Goes on until no grain is faster than a fiftieth of a speed, which is given by its square [m2/s2]."""
+	O.run(3000, wait=True)
+	while max(O.bodies[i].state.vel.norm() for i in ids) > 0.02 * np.sqrt(speed2): O.run(1000, wait=True)
+
+
+def siloScene(layer, height, width, opening, g, wallFriction, lowered):
+	"""Replace the scene by a plane silo of rough grains, *width* by *height* [m] with its axis at x = 0, at rest under gravity *g*: walls with their own friction angle [rad], a rough base, and in its middle a door. Grains of a layer fall from apart, as in filling by rain; then the base is lowered by a length [m] to y = 0, which makes the walls rub. Returns the ids of grains, walls, base and door."""
+	x, y, radius = layer.packed.T
+	O.reset()
+	_materials(layer.friction)
+	for label, angle in ('side', wallFriction), ('base', layer.friction): O.materials.append(FrictMat(young=young, poisson=0.3, density=density, frictionAngle=angle, label=label))
+	O.dt = 0.4 * np.sqrt(density / young) * radius.min()
+	inside = (x > radius) & (x < width - radius) & (y > radius) & (y < height)
+	ids = O.bodies.append([_grain((i - width / 2, lowered + apart * j, 0), r) for i, j, r in zip(x[inside], y[inside], radius[inside])])
+	walls = [O.bodies.append(utils.wall(sense * -width / 2, axis=0, sense=sense, material='side')) for sense in (1, -1)]
+	thick, part = layer.diameter, (width - opening) / 4
+	box = lambda at, half: O.bodies.append(utils.box((at, lowered - thick, 0), (half, thick, 2 * thick), material='base', fixed=True))
+	base, door = [box(side * (opening / 2 + part), part) for side in (-1, 1)], box(0, opening / 2)
+	O.engines = _engines(layer.diameter, adhesive=False, gravity=(0, -g, 0))
+	O.engines[-1].damping = 0.8  # an impact would lock pressure in between the walls
+	_settle(ids, g * layer.diameter)
+	plates, speed = [O.bodies[i] for i in (*base, door)], 0.1 * np.sqrt(g * layer.diameter)
+	for plate in plates: plate.state.vel = (0, -speed, 0)
+	O.run(round(lowered / speed / O.dt), wait=True)
+	for plate in plates: plate.state.vel = (0, 0, 0)
+	_settle(ids, g * layer.diameter)
+	return ids, walls, base, door
+
+
+def letGo(body):
+	"""Take away a body that grains rest on, and most of the damping."""
+	O.bodies.erase(body)
+	O.engines[-1].damping, O.engines[-1].dampGravity = 0.05, False
+
+
+def strength(layer, pressures, strain):
+	"""Friction angle at the peak and over the last third, dilation angle at the peak [degrees] and shortening from the peak to half of the fall, means of biaxial tests; shortening and mobilised angle in the last of them."""
+	angles = []
+	for pressure in pressures:
+		test = layer.biaxial(pressure, strain, readings=30)
+		along, growth, volume = -test['axialStrain'], -test['stress_yy'], test['volumetricStrain']
+		mobilised = growth / (growth + 2 * pressure)
+		peak = max(2, mobilised.argmax())
+		near = slice(max(0, peak - 3), peak + 4)
+		opens = np.polyfit(along[near], volume[near], 1)[0]
+		half = along[peak:][mobilised[peak:] < (mobilised.max() + mobilised[-10:].mean()) / 2]
+		angles.append([*np.degrees(np.arcsin([mobilised.max(), mobilised[-10:].mean(), opens / (2 + opens)])), half[0] - along[peak] if len(half) else strain])
+	return np.mean(angles, axis=0), along, np.degrees(np.arcsin(mobilised))

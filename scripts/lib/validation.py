@@ -39,7 +39,7 @@ runs = {
         ],
         'adaptive': ['adaptive.py', 'slip.py'],
         'grains_on_soil': ['grains_on_soil.py', 'plough_alone.py --cell 0.05', 'energy.py'],
-        'mpm_vs_dem': ['mpm_vs_dem.py', 'dry_grains.py'],
+        'mpm_vs_dem': ['mpm_vs_dem.py', 'dry_grains.py', 'silo.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],
         'free_bodies': ['gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
@@ -210,7 +210,7 @@ those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test
 
 
 kinds = {'closed form': 'o', 'other program': 's', 'experiment': '^', 'field': '*', 'balance, or itself': 'x'}
-_programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same (cut|column) in grains|CalculiX|GetFEM|FEniCS|AMPLE')
+_programs = re.compile('finite (elements|volumes|method)|finer method|limit analysis|Coombs 2023|independent implementations|Gourvenec|Griffiths|same (cut|column|silo|bed) in grains|CalculiX|GetFEM|FEniCS|AMPLE')
 _itself = re.compile('balance|its weight|weight of|what was set|what turns|the same (cells|dam|undrained|drained|at V)|nothing changes|by MpmContact|MpmWater of|potential_plane|volume loss|base of the ground bears')
 
 
