@@ -33,6 +33,7 @@ options = readOptions('Silo of dry grains beside a continuum.',
         wall=(20., 'friction of the walls [degrees]'),
         cells=('24 48', 'of the continuum over the width, between blanks'),
         pointsPerCell=(2, 'material points per cell and axis'),
+        dilation=(0., 'angle of dilation of the continuum [degrees]'),
         courant=(0.3, 'how far what falls down the opening goes in a step, in cells'),
         empty=(0.4, 'part of the mass that flows out'),
         lowered=(0.5, 'grains by which the base of the grains is lowered before the door opens, which makes the walls rub'),
@@ -105,7 +106,7 @@ def fallen():
 def flowOfContinuum(phi, cells, D):
 	"""The same of half of the continuum."""
 	O.reset()
-	O.materials.append(MpmMohrCoulombMat(young=500 * rho * g * W, poisson=(1 - np.sin(phi)) / (2 - np.sin(phi)), density=rho, cohesion=1e-3 * rho * g * W, frictionAngle=phi, dilationAngle=0, label='sand'))
+	O.materials.append(MpmMohrCoulombMat(young=500 * rho * g * W, poisson=(1 - np.sin(phi)) / (2 - np.sin(phi)), density=rho, cohesion=1e-3 * rho * g * W, frictionAngle=phi, dilationAngle=radians(options.dilation), label='sand'))
 	O.materials.append(FrictMat(frictionAngle=wallFriction, label='side'))
 	grid = MpmGrid(cellSize=W / cells)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (W / 2, H, 1)), grid, options.pointsPerCell, 'sand'))

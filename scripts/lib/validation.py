@@ -39,7 +39,7 @@ runs = {
         ],
         'adaptive': ['adaptive.py', 'slip.py'],
         'grains_on_soil': ['grains_on_soil.py', 'plough_alone.py --cell 0.05', 'energy.py'],
-        'mpm_vs_dem': ['mpm_vs_dem.py', 'dry_grains.py', 'silo.py'],
+        'mpm_vs_dem': ['mpm_vs_dem.py', 'dry_grains.py', 'silo.py', 'plough.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],
         'free_bodies': ['gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],

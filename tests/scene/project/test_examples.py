@@ -825,3 +825,13 @@ def test_silo_beside_a_continuum(yade):
 	ours, borne, janssen = numbers(r'MPM, .*?: (\S+) .*base bears (\S+) of the weight, Janssen ([.\d]+)', run.stdout)
 	assert 1 < ours / rate < 3 and 0.6 < load < 1.1 and abs(borne / janssen - 1) < 0.05, run.stdout
 	assert (run.folder / 'out/silo/silo.png').stat().st_size > 20000
+
+
+def test_blade_through_grains_beside_a_continuum(yade):
+	"""Few grains scatter; the continuum with coarse cells has up to twice the force of the passive wedge."""
+	run = yade(root / 'examples' / 'mpm_vs_dem' / 'plough.py', '--seeds', 1, '--grains', 5, '--sample', 8, '--pressures', '10e3', '--strain', 0.04, '--length', 3, '--cells', 6)
+	first, wedge, later, risen = numbers(r'DEM: draft (\S+) .*?at the peak (\S+)\), (\S+) .*?large strain (\S+)\)', run.stdout)
+	drafts = re.findall(r'MPM, .*? draft (\S+) .*?grains\), (\S+)', run.stdout)
+	assert len(drafts) == 2 and all(1 < float(late) / risen < 2 for _, late in drafts), run.stdout
+	assert 0.3 < first / wedge < 1.5 and 0.4 < later / risen < 1.5, run.stdout
+	assert (run.folder / 'out/plough/plough.png').stat().st_size > 20000
