@@ -2,18 +2,20 @@
 #include "core/grid/folds.hpp"
 #include "core/grid/by_cell.hpp"
 #include "core/grid/disjoint_sets.hpp"
+#include "core/grid/layer_of_nearest.hpp"
 #include "core/grid/parting.hpp"
 #include "core/grid/parts_of_body.hpp"
+#include "core/grid/refinement.hpp"
 #include <map>
 #include <set>
 
 namespace gimpm {
 namespace {
 
-/// Distance of pieces that face each other up to which their soil may share nodes [cells].
+/// Distance of pieces that face each other up to which their soil may share nodes [cells, the larger one of both].
 constexpr double reachOfFolds = 2.5;
-/// Depth of a piece behind another one that it faces, at most, if one of them is pressed or not [cells]: the two faces
-/// of a film do not face each other.
+/// Depth of a piece behind another one that it faces, at most, if one of them is pressed or not [smallest cells]: the
+/// two faces of a film do not face each other.
 constexpr double deepestPressed = 0.35, deepestFree = 0.05;
 /// Soil thinner than this does not fold, but flows as a film [cells].
 constexpr double thinnest = 0.9;
@@ -22,13 +24,25 @@ constexpr double leastFacing = -0.3;
 /// Gap between domains that are neighbours, at most [cells].
 constexpr double gapOfNeighbours = 0.75;
 
-/// Keys of cells, and of the cells around them.
-template <int Dim> std::set<Key> widened(const std::set<Key>& cells)
+/// Size of the largest leaf of which a node may have functions in a cell [smallest cells].
+template <int Dim> int largestNear(const Index<Dim>& cell, const Grid<Dim>& grid)
+{
+	if (!grid.refinement) return 1;
+	for (int level = grid.refinement->largest(); level > 0; --level)
+		for (int n = 0; n < cellsAround<Dim>; ++n)
+			if (Grid<Dim>::level(grid.refinement->leafOf(Grid<Dim>::key(cell + (1 << level) * offsetAround<Dim>(n)))) == level) return 1 << level;
+	return 1;
+}
+
+/// Keys of smallest cells, and of those around them as far as one of the largest leaves there reaches.
+template <int Dim> std::set<Key> widened(const std::set<Key>& cells, const Grid<Dim>& grid)
 {
 	std::set<Key> all;
-	for (const Key cell : cells)
-		for (int n = 0; n < cellsAround<Dim>; ++n)
-			all.insert(Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n)));
+	for (const Key key : cells) {
+		const Index<Dim> cell = Grid<Dim>::index(key);
+		const int        most = largestNear<Dim>(cell, grid);
+		forIndicesUpTo<Dim>(cell.array() - most, cell.array() + most, [&](const Index<Dim>& near) { all.insert(Grid<Dim>::key(near)); });
+	}
 	return all;
 }
 
@@ -43,6 +57,7 @@ public:
 			for (const int v : piece)
 				centre += body.surface->vertices[v] / Dim;
 			centre_.push_back(centre), normal_.push_back(body.surface->normal(piece, body.surface->vertices).normalized());
+			size_.push_back(cellSizeAt(grid, centre));
 		}
 	}
 
@@ -52,7 +67,7 @@ public:
 		body_.layerOfPiece.clear();
 		const std::set<Key> near = cellsOfFacingPieces();
 		if (near.empty()) return;
-		const std::set<Key> around = widened<Dim>(near), reached = widened<Dim>(around);
+		const std::set<Key> around = widened<Dim>(near, grid_), reached = widened<Dim>(around, grid_);
 		takePieces(reached);
 		takePoints(cloud, reached);
 		connect();
@@ -85,19 +100,22 @@ private:
 
 	bool isPressed(int piece) const { return piece < int(body_.pressure.size()) && body_.pressure[piece] > 0; }
 
+	/// Size of the larger one of the cells of two pieces [m].
+	double sizeOf(int i, int j) const { return std::max(size_[i], size_[j]); }
+
 	/// True if two pieces are the two faces of a film.
 	bool areOfFilm(int i, int j) const
 	{
 		const Vec<Dim> way = centre_[j] - centre_[i];
-		const double   h = grid_.cellSize, back = -way.dot(normal_[i]);
-		return normal_[i].dot(normal_[j]) < leastFacing && !isPressed(i) && !isPressed(j) && back > deepestFree * h && back < thinnest * h
+		const double   h = sizeOf(i, j), back = -way.dot(normal_[i]);
+		return normal_[i].dot(normal_[j]) < leastFacing && !isPressed(i) && !isPressed(j) && back > deepestFree * grid_.cellSize && back < thinnest * h
 		        && (way + back * normal_[i]).norm() < thinnest * h / 2;
 	}
 
 	bool face(int i, int j) const
 	{
 		const Vec<Dim> way = centre_[j] - centre_[i];
-		const double   h = grid_.cellSize, deepest = -(isPressed(i) || isPressed(j) ? deepestPressed : deepestFree) * h;
+		const double   h = sizeOf(i, j), deepest = -(isPressed(i) || isPressed(j) ? deepestPressed : deepestFree) * grid_.cellSize;
 		return normal_[i].dot(normal_[j]) < leastFacing && way.squaredNorm() < reachOfFolds * reachOfFolds * h * h && way.dot(normal_[i]) > deepest
 		        && -way.dot(normal_[j]) > deepest;
 	}
@@ -119,7 +137,7 @@ private:
 
 	std::set<Key> cellsOfFacingPieces() const
 	{
-		ByCell<Dim>                  pieces(grid_.origin, reachOfFolds * grid_.cellSize);
+		ByCell<Dim>                  pieces(grid_.origin, reachOfFolds * largestCell(grid_));
 		std::unordered_map<Key, int> signs;
 		for (std::size_t i = 0; i < centre_.size(); ++i) {
 			const Index<Dim> cell = pieces.cell(centre_[i]);
@@ -163,7 +181,8 @@ private:
 	{
 		for (int p = 0; p < int(cloud.size()); ++p)
 			if (cloud.layer[p] == body_.layer && cells.count(Grid<Dim>::key(pieces_.cell(cloud.position[p]))))
-				points_.push_back(p), boxes_.push_back(domainBox<Dim>(cloud.position[p], cloud.halfSize[p]));
+				points_.push_back(p), boxes_.push_back(domainBox<Dim>(cloud.position[p], cloud.halfSize[p])),
+				        sizeOfPoint_.push_back(cellSizeAt(grid_, cloud.position[p]));
 	}
 
 	Vec<Dim> centreOf(int i) const { return (boxes_[i].low + boxes_[i].high) / 2; }
@@ -185,7 +204,7 @@ private:
 	/// points that are connected to no others have got out of the surface: they go with the nearest point.
 	void connect()
 	{
-		ByCell<Dim> byCell(grid_.origin, grid_.cellSize);
+		ByCell<Dim> byCell(grid_.origin, largestCell(grid_));
 		for (std::size_t i = 0; i < boxes_.size(); ++i)
 			byCell.add(byCell.cell(centreOf(int(i))), int(i));
 		neighbours_.resize(boxes_.size());
@@ -194,7 +213,7 @@ private:
 		for (int i = 0; i < int(boxes_.size()); ++i)
 			byCell.forNear(centreOf(i), [&](int j) {
 				const double gap = (boxes_[i].low - boxes_[j].high).cwiseMax(boxes_[j].low - boxes_[i].high).maxCoeff();
-				if (j <= i || gap > gapOfNeighbours * grid_.cellSize) return;
+				if (j <= i || gap > gapOfNeighbours * std::max(sizeOfPoint_[i], sizeOfPoint_[j])) return;
 				if (isThroughSurface(centreOf(i), centreOf(j))) return parted.push_back({ i, j });
 				neighbours_[i].push_back(j), neighbours_[j].push_back(i), connected.join(i, j);
 			});
@@ -240,8 +259,7 @@ private:
 	/// Finds nodes at which points are in parts. Points half a cell farther away connect them, too.
 	void divideNodes(const std::set<Key>& cells)
 	{
-		constexpr double farther = 0.5; // [cells]
-		ByCell<Dim>      points(grid_.origin, grid_.cellSize);
+		ByCell<Dim> points(grid_.origin, grid_.cellSize);
 		for (int i = 0; i < int(boxes_.size()); ++i)
 			points.add(points.cell(centreOf(i)), i);
 		std::set<Key> nodes;
@@ -250,33 +268,46 @@ private:
 				nodes.insert(cell + Grid<Dim>::keyOffset(corner));
 		std::vector<int> numberOf(boxes_.size(), -1);
 		for (const Key node : nodes) {
-			const Vec<Dim>   x = grid_.nodePosition(Grid<Dim>::index(node));
-			std::vector<int> around;
-			forIndicesUpTo<Dim>(Grid<Dim>::index(node).array() - 3, Grid<Dim>::index(node).array() + 2, [&](const Index<Dim>& cell) {
-				points.forAll(cell, [&](int i) {
-					if (awayFrom(x, i) < 1 + farther) numberOf[i] = int(around.size()), around.push_back(i);
-				});
-			});
-			divideNode(node, x, around, numberOf);
-			for (const int i : around)
-				numberOf[i] = -1;
+			const Index<Dim> index = Grid<Dim>::index(node);
+			const int        level = grid_.refinement ? grid_.refinement->largestAt(index) : 0;
+			if (index == index.unaryExpr([level](int i) { return floorTo(i, level); })) divideNode(index, level, points, numberOf); // does not hang
 		}
 	}
 
-	/// Distance of a domain from a position along the worst axis [cells].
-	double awayFrom(const Vec<Dim>& x, int i) const { return (boxes_[i].low - x).cwiseMax(x - boxes_[i].high).maxCoeff() / grid_.cellSize; }
+	/// Distance of a domain from a position along the worst axis [m].
+	double awayFrom(const Vec<Dim>& x, int i) const { return (boxes_[i].low - x).cwiseMax(x - boxes_[i].high).maxCoeff(); }
 
-	void divideNode(Key node, const Vec<Dim>& x, const std::vector<int>& around, const std::vector<int>& numberOf)
+	/// Points within the reach of the functions of a node, and half a cell farther, whose numbers it gives.
+	std::vector<int> pointsAround(const Index<Dim>& node, double size, const ByCell<Dim>& points, std::vector<int>& numberOf) const
 	{
-		DisjointSets connected(int(around.size()));
+		constexpr double farther = 0.5; // [cells]
+		const Vec<Dim>   x       = grid_.nodePosition(node);
+		const int        most    = 3 * int(std::lround(size / grid_.cellSize));
+		std::vector<int> around;
+		forIndicesUpTo<Dim>(node.array() - most, node.array() + most - 1, [&](const Index<Dim>& cell) {
+			points.forAll(cell, [&](int i) {
+				if (awayFrom(x, i) / size < 1 + farther) numberOf[i] = int(around.size()), around.push_back(i);
+			});
+		});
+		return around;
+	}
+
+	void divideNode(const Index<Dim>& node, int level, const ByCell<Dim>& points, std::vector<int>& numberOf)
+	{
+		const double           size   = grid_.size(level);
+		const Vec<Dim>         x      = grid_.nodePosition(node);
+		const std::vector<int> around = pointsAround(node, size, points, numberOf);
+		DisjointSets           connected(int(around.size()));
 		for (const int i : around)
 			for (const int j : neighbours_[i])
 				if (numberOf[j] >= 0) connected.join(numberOf[i], numberOf[j]);
 		std::map<int, std::vector<int>> parts;
 		for (const int i : around)
-			if (awayFrom(x, i) < 1 - 1e-6) parts[connected.root(numberOf[i])].push_back(i);
+			if (awayFrom(x, i) / size < 1 - 1e-6) parts[connected.root(numberOf[i])].push_back(i);
+		for (const int i : around)
+			numberOf[i] = -1;
 		if (parts.size() < 2) return;
-		split_.push_back({ node, {} });
+		split_.push_back({ Grid<Dim>::key(node, level), {} });
 		for (auto& [root, part] : parts)
 			split_.back().parts.push_back(std::move(part));
 	}
@@ -331,7 +362,7 @@ private:
 					area[side_[by]] += body_.surface->normal(piece, body_.surface->vertices).norm();
 				for (const int v : piece)
 					for (const int next : at[v])
-						if (foundFor[next] != i && (centre_[next] - centre_[i]).norm() < around * grid_.cellSize)
+						if (foundFor[next] != i && (centre_[next] - centre_[i]).norm() < around * size_[i])
 							foundFor[next] = i, found.push_back(next);
 			}
 			sideOfPiece_[i] = std::max_element(area.begin(), area.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
@@ -380,40 +411,15 @@ private:
 	const int                     firstBit_;
 	const Grid<Dim>&              grid_;
 	std::vector<Vec<Dim>>         centre_, normal_; // of all pieces
+	std::vector<double>           size_;            // of their cells [m]
 	ByCell<Dim>                   pieces_;
 	std::vector<int>              near_, behind_; // pieces near folds; the point behind each piece, -1: none
 	std::vector<int>              points_;        // points near folds, in the cloud
 	std::vector<DomainBox<Dim>>   boxes_;         // their domains
+	std::vector<double>           sizeOfPoint_;   // of their cells [m]
 	std::vector<std::vector<int>> neighbours_;
 	std::vector<Split>            split_;
 	std::vector<int>              side_, sideOfPiece_, layer_; // by point and by piece, -1: of none; by side
-};
-
-/// Points by their cells, for the layer at a position.
-template <int Dim> class LayerOfNearest {
-public:
-	LayerOfNearest(const PointCloud<Dim>& cloud, int bitsOfBodies, const Grid<Dim>& grid)
-	        : position_(cloud.position), layer_(cloud.layer), bitsOfBodies_(bitsOfBodies), points_(grid.origin, grid.cellSize)
-	{
-		for (std::size_t p = 0; p < position_.size(); ++p)
-			points_.add(points_.cell(position_[p]), int(p));
-	}
-	int operator()(const Vec<Dim>& x, int ofBody) const
-	{
-		double least = std::numeric_limits<double>::infinity();
-		int    layer = std::max(0, ofBody);
-		points_.forNear(x, [&](int p) {
-			if (ofBody >= 0 && (layer_[p] & bitsOfBodies_) != ofBody) return;
-			if (const double away = (position_[p] - x).squaredNorm(); away < least) least = away, layer = layer_[p];
-		});
-		return layer;
-	}
-
-private:
-	std::vector<Vec<Dim>> position_;
-	std::vector<int>      layer_;
-	int                   bitsOfBodies_;
-	ByCell<Dim>           points_;
 };
 
 } // namespace
@@ -435,7 +441,7 @@ template <int Dim> void partFolds(std::vector<FoldingBody<Dim>>& bodies, int bit
 		return;
 	}
 	grid.parting = std::make_shared<Parting<Dim>>(
-	        std::move(own), LayerOfNearest<Dim>(cloud, bitsOfBodies, grid), nullptr, std::vector<LeakyCut<Dim>>(), bitsOfBodies);
+	        std::move(own), LayerOfNearest<Dim>(cloud, bitsOfBodies, grid), grid.refinement, std::vector<LeakyCut<Dim>>(), bitsOfBodies);
 }
 
 template void partFolds(std::vector<FoldingBody<2>>&, int, PointCloud<2>&, Grid<2>&);

@@ -43,6 +43,11 @@ public:
 
 	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
 
+	/// True if lines cut what a node, in any layer of its body, stands for.
+	bool isCut(Key node) const { return nodes_.bitsOf(ofBody(node)) != 0; }
+	/// True of folds, whose sides may have other layers in the next step.
+	bool isOfFolds() const { return bitsOfBodies_ > 0; }
+
 	bool isOwn(Key node) const { return Grid<Dim>::layer(node) > 0 && nodeFor(node) == node; }
 	/// The node that stands for one of a layer that does not hang.
 	Key nodeFor(Key node) const { return in(Grid<Dim>::layer(node) & (bitsOfBodies_ | nodes_.bitsOf(ofBody(node))), node); }

@@ -2,6 +2,8 @@
 #include "core/grid/parts_of_body.hpp"
 #include "core/grid/cells_around.hpp"
 #include "core/grid/disjoint_sets.hpp"
+#include "core/grid/refinement.hpp"
+#include <unordered_map>
 
 namespace gimpm {
 namespace {
@@ -69,12 +71,33 @@ template <int Dim, class F> void forCellsAhead(Key cell, F&& f)
 		if (const Key near = Grid<Dim>::key(Grid<Dim>::index(cell) + offsetAround<Dim>(n)); near >= cell) f(near);
 }
 
+/// The parts in a grid of several sizes: of boxes in the same leaf, or in two that touch.
+template <int Dim> std::vector<int> partsOnLeaves(const std::vector<DomainBox<Dim>>& boxes, const Grid<Dim>& grid)
+{
+	const auto                   leafAt = [&](const Index<Dim>& cell) { return grid.refinement->leafOf(Grid<Dim>::key(cell)); };
+	DisjointSets                 sets(int(boxes.size()));
+	std::unordered_map<Key, int> firstIn;
+	for (int b = 0; b < int(boxes.size()); ++b)
+		forCellsOf(boxes[b], grid.origin, grid.cellSize, [&](const Index<Dim>& cell) { sets.join(b, firstIn.emplace(leafAt(cell), b).first->second); });
+	for (const auto& [leaf, box] : firstIn) {
+		const Index<Dim> low = Grid<Dim>::index(leaf).array() - 1, high = low.array() + 1 + (1 << Grid<Dim>::level(leaf));
+		forIndicesUpTo<Dim>(low, high, [&, box = box](const Index<Dim>& cell) {
+			if ((cell.array() > low.array()).all() && (cell.array() < high.array()).all()) return;
+			if (const auto found = firstIn.find(leafAt(cell)); found != firstIn.end()) sets.join(box, found->second);
+		});
+	}
+	return sets.numbers();
+}
+
 } // namespace
 
-template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Vec<Dim>& origin, double cellSize)
+template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>& boxes, const Grid<Dim>& grid)
 {
-	DisjointSets sets(int(boxes.size()));
-	Block<Dim>   block(boxes, origin, cellSize);
+	if (grid.refinement) return partsOnLeaves(boxes, grid);
+	const Vec<Dim>& origin   = grid.origin;
+	const double    cellSize = grid.cellSize;
+	DisjointSets    sets(int(boxes.size()));
+	Block<Dim>      block(boxes, origin, cellSize);
 	if (block.isFilled()) {
 		for (int b = 0; b < int(boxes.size()); ++b)
 			forCellsOf(boxes[b], origin, cellSize, [&](const Index<Dim>& cell) {
@@ -156,8 +179,8 @@ template <int Dim> std::vector<int> nearestBoxes(const std::vector<DomainBox<Dim
 	return nearest;
 }
 
-template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<2>>&, const Vec<2>&, double);
-template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<3>>&, const Vec<3>&, double);
+template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<2>>&, const Grid<2>&);
+template std::vector<int>              partsBySharedNodes(const std::vector<DomainBox<3>>&, const Grid<3>&);
 template std::vector<int>              partsByTouch(const std::vector<DomainBox<2>>&, double, double);
 template std::vector<int>              partsByTouch(const std::vector<DomainBox<3>>&, double, double);
 template std::set<std::pair<int, int>> sharingNodes(const std::vector<DomainBox<2>>&, const std::vector<int>&, const Vec<2>&, double);

@@ -36,7 +36,7 @@ template <int Dim, class F> void forCellsOf(const DomainBox<Dim>& box, const Vec
 
 /// Numbers of the parts that boxes belong to, counted from 0 in the order of their first boxes. Boxes that reach into
 /// the same cell or into neighbouring cells share nodes, and are of one part.
-template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>&, const Vec<Dim>& origin, double cellSize);
+template <int Dim> std::vector<int> partsBySharedNodes(const std::vector<DomainBox<Dim>>&, const Grid<Dim>&);
 
 /// The same, where boxes are of one part if their distance along each axis is at most `gap`. No box may be longer than
 /// a cell.

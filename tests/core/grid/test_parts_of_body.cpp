@@ -41,7 +41,7 @@ namespace {
 			from[0]        = 2 + gap;
 			const auto all = joined(boxes<Dim>(count, 0.5, Vec<Dim>::Zero()), boxes<Dim>(count, 0.5, from));
 			for (const auto& [parts, expected] :
-			     { std::pair(partsBySharedNodes<Dim>(all, Vec<Dim>::Zero(), 1), byNodes), std::pair(partsByTouch<Dim>(all, 0.01, 1), byTouch) }) {
+			     { std::pair(partsBySharedNodes<Dim>(all, Grid<Dim>()), byNodes), std::pair(partsByTouch<Dim>(all, 0.01, 1), byTouch) }) {
 				EXPECT_EQ(parts.front(), 0);
 				EXPECT_EQ(*std::max_element(parts.begin(), parts.end()) + 1, expected) << gap;
 			}

@@ -253,6 +253,54 @@ for case in CASES:
 		assert ('moves as one' in told[case]) == bool(reason) and reason in told[case], (case, told[case])
 
 
+def test_thin_bodies_part_soil_in_explicit_steps(yade):
+	"""A sheet and a thin Box that go to one side leave the soil behind them at rest, and push as in Newmark's steps, within 10 %; a sheet that goes down has the whole cap of the shear stress on both sides, within 2 %."""
+	pushes, rubbed = yade(scene + '''
+def thrown(make, scheme, dt, velocity, time, friction=0, **settings):
+	solver = ground(K0=1, engine=MpmDynamicEngine, scheme=scheme, friction=friction)
+	if not friction:
+		solver.gravity, solver.gravityCurve = (0, 0, 0), []
+		mpm.assign(stress=np.zeros((len(O.bodies), 3, 3)))
+	wall = make()
+	wall.state.vel, solver.contacts, O.dt = velocity, [MpmContact(**settings)], dt
+	O.run(round(time / dt), wait=True)
+	points = mpm.arrays()
+	return [abs((points['pos'] - points['pos0'])[points['pos0'][:, 0] < 0.03]).max(), solver.contacts[0].forces[0][0], solver.plotData()['momentum_x']]
+
+pushes = [[thrown(make, scheme, dt, (0.2, 0, 0), 0.02) for scheme, dt in (('explicit', 1e-4), ('newmark', 2e-3))] for make in (lambda: sheet(0.03, -1), lambda: plank(0.03, -1, 0.05))]
+thrown(lambda: sheet(0, 0), 'explicit', 1e-4, (0, -0.2, 0), 0.005, 1.2, adhesion=2e3)
+print(json.dumps([pushes, [side[1] for side in sides(O.engines[0])]]))
+''').result
+	for explicit, newmark in np.array(pushes):
+		assert explicit[0] < 1e-9 and newmark[0] < 1e-9, pushes
+		assert abs(explicit[1:] / newmark[1:] - 1).max() < 0.1, pushes
+	assert np.allclose(rubbed, -2e3, rtol=0.02), rubbed
+
+
+def test_water_does_not_pass_thin_bodies_unseen(yade):
+	"""In time steps the pressure to the left of a sheet stays there; where soil is not parted MpmFlow is refused."""
+	pressures, said = yade(scene + '''
+def wet(toe=-1, **settings):
+	solver = ground(K0=1, flow=MpmFlow(unitWeight=1e4, bulkModulus=1e7), engine=MpmDynamicEngine, **settings)
+	solver.gravity, solver.gravityCurve = (0, 0, 0), []
+	O.materials[0].conductivity, O.materials[0].porosity = 1e-4, 0.4
+	isLeft = mpm.arrays()['pos'][:, 0] < 0
+	mpm.assign(stress=np.zeros((len(O.bodies), 3, 3)), excessPressure=np.where(isLeft, 1e4, 0))
+	sheet(0, toe)
+	solver.contacts, O.dt = [MpmContact()], 0.01
+	return isLeft
+isLeft = wet()
+O.run(5, wait=True)
+pressure = mpm.arrays()['excessPressure']
+wet(fBar=True, pressureRelaxation=True)
+try: O.run(1, wait=True)
+except RuntimeError as error: said = str(error)
+print(json.dumps([[pressure[isLeft].max(), abs(pressure[~isLeft]).max()], said]))
+''').result
+	assert pressures[0] > 2e3 and pressures[1] < 0.01 * 1e4, pressures
+	assert '(Facet)' in said and 'pressureRelaxation' in said and 'MpmFlow' in said, said
+
+
 in3D = scene + '''
 from yade import pack
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/water/flow.hpp"
 #include "core/base/instruction_set.hpp"
+#include "core/grid/parting.hpp"
 #include "core/terms/overlap.hpp"
 #include "core/terms/water/fitted_pressures.hpp"
 #include "core/terms/water/flow_sums.hpp"
@@ -46,11 +47,13 @@ template <int Dim> struct Corners {
 
 template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Division& division, double scale)
 {
-	const auto begin = [&water, &division](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>& grid) {
+	const auto folds = std::make_shared<std::shared_ptr<const Parting<Dim>>>(); // of the step
+	const auto begin = [&water, &division, folds](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>& grid) {
+		*folds        = grid.parting && grid.parting->isOfFolds() ? grid.parting : nullptr;
 		auto pressure = water.pressure;
 		division.extend(pressure);
 		const auto      nodes = Eigen::Index(basis.nodes.size());
-		Eigen::VectorXd sum = Eigen::VectorXd::Zero(nodes), volume = sum;
+		Eigen::VectorXd sum = Eigen::VectorXd::Zero(nodes), volume = sum, fitted;
 		for (const auto& patch : basis.patches)
 			for (int i = patch.first; i < patch.first + patch.count; ++i) {
 				const PointFunctions<Dim> f(basis, i, patch);
@@ -61,7 +64,6 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * pressure[p];
 					}
 			}
-		Eigen::VectorXd fitted;
 		for (Eigen::Index n = 0; n < nodes; ++n) {
 			const auto known = water.atNodes.find(basis.nodes[n]);
 			if (known != water.atNodes.end()) sum[n] = known->second;
@@ -74,10 +76,12 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Di
 		}
 		return FieldStart { sum, {} };
 	};
-	const auto commit = [&water](const CloudBasis<Dim>& basis, const Eigen::VectorXd& value, const Eigen::VectorXd&) {
+	// Sides of folds may have other layers in the next step: their points know the pressures.
+	const auto commit = [&water, folds](const CloudBasis<Dim>& basis, const Eigen::VectorXd& value, const Eigen::VectorXd&) {
 		water.atNodes.clear();
 		for (std::size_t n = 0; n < basis.nodes.size(); ++n)
-			if (!basis.affineConstraints.contains(int(n))) water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
+			if (!basis.affineConstraints.contains(int(n)) && !(*folds && (*folds)->isCut(basis.nodes[n])))
+				water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
 	};
 	return { { "pore pressure", "Pa", 1, scale, -1 }, begin, commit };
 }

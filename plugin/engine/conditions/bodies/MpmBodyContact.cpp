@@ -37,8 +37,6 @@ std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, 
 static string obstacleToFolds(const Analysis& analysis)
 {
 	if (analysis.isExplicit()) return "explicit steps";
-	if (!analysis.grid->hasEqualCells()) return "cells of several sizes";
-	if (MpmFlow::of(analysis)) return "MpmFlow";
 	return obstacleToParting(analysis);
 }
 

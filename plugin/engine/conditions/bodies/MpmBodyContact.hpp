@@ -50,7 +50,7 @@ public:
 		v("filled", &MpmBodyContact::filled, 0,
 		  "True: water of MpmFlow fills the joint, up to half a cell wide: it passes, and presses on both faces; contact is of effective stress. Static steps.");
 		v("folds", &MpmBodyContact::folds, 0,
-		  "True, of a body named twice: where it folds, the sides are in contact, too; else they stick. Implicit steps, equal cells, one process, no MpmFlow.");
+		  "True, of a body named twice: where it folds, the sides are in contact, too; else they stick. Implicit steps, one process.");
 		v("force", &MpmBodyContact::force, readonly,
 		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");

@@ -53,7 +53,7 @@ namespace {
 			constexpr Real    touches = 0.01; // [cells]
 			const bool        isFirst = grid.bodies[body]->initialVertices.empty();
 			const vector<int> number  = isFirst ? gimpm::partsByTouch<Dim>(boxes, touches * grid.cellSize, grid.cellSize)
-			                                    : gimpm::partsBySharedNodes<Dim>(boxes, grid.origin.template head<Dim>(), grid.cellSize);
+			                                    : gimpm::partsBySharedNodes<Dim>(boxes, grid.lattice<Dim>());
 			if (number.empty()) return {};
 			vector<vector<int>> all(*std::max_element(number.begin(), number.end()) + 1);
 			for (size_t i = 0; i < number.size(); ++i)

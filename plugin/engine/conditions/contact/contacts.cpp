@@ -9,6 +9,7 @@
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/conditions/contact/rolling.hpp"
 #include "engine/conditions/contact/small_features.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/structures/MpmBeam.hpp"
 #include "engine/conditions/structures/parting.hpp"
 #include "yade_api/bodies.hpp"
@@ -78,7 +79,6 @@ namespace {
 	string cannotPart(const Analysis& analysis, int processes)
 	{
 		if (processes > 1) return "several processes";
-		if (analysis.isExplicit()) return "explicit steps";
 		for (const Listed& listed : analysis.conditions())
 			if (listed.condition->partsBodies() || dynamic_cast<const MpmBeam*>(listed.condition.get())) return listed.name();
 		return obstacleToParting(analysis);
@@ -238,6 +238,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 	cellSize = model.grid.cellSize, scene = &around.scene;
 	inItsWay = cannotPart(around.analysis, model.processes->size());
 	inTime   = around.analysis.isDynamic();
+	hasFlow  = bool(MpmFlow::of(around.analysis));
 	for (const auto& material : model.materials)
 		soil.density = std::max(soil.density, material.density);
 	soil.cellSize = cellSize, soil.answers = !around.analysis.isExplicit();
@@ -290,7 +291,17 @@ template <int Dim> template <class Surface> void Contacts<Dim>::partBy(vector<Su
 		gimpm::lookBetween(those, cloud, grid);
 	for (const auto& surface : surfaces)
 		for (const int body : surface.bodies)
-			system->bodies[body].isBetween = surface.isBetween, system->bodies[body].parts = surface.layer > 0;
+			system->bodies[body].isBetween = surface.isBetween, system->bodies[body].parts = surface.layer > 0, requirePermeable(body);
+}
+
+// Water would go through a thin body that does not part the soil.
+template <int Dim> void Contacts<Dim>::requirePermeable(int body) const
+{
+	const auto& rigid = system->bodies[body];
+	if (!hasFlow || inItsWay.empty() || !rigid.isBetween || rigid.parts) return;
+	throw std::invalid_argument(gimpm::sentence(
+	        rigid.name, ", thinner than a cell: the soil on its two sides is one body, because of ", inItsWay,
+	        ", and water of MpmFlow would pass it as if there were none. Leave one of the two out."));
 }
 
 template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>& model, gimpm::Load<Dim>& load)

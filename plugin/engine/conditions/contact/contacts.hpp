@@ -92,6 +92,8 @@ private:
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
 
+	void requirePermeable(int body) const;
+
 	template <class Surface> void partBy(vector<Surface> surfaces, gimpm::PointCloud<Dim>&, gimpm::Grid<Dim>&);
 
 	vector<shared_ptr<MpmContact>>        given;
@@ -101,10 +103,10 @@ private:
 	Places                                ownersById;
 	vector<Member>                        members; // members in the order of the system's bodies
 	bool                                  hasKept = false;
-	Real                                  begin = 0, target = 0, end = 0; // times of the run; end: of the last step
-	Real                                  dt       = 0;                   // time step of YADE
-	Real                                  cellSize = 0;                   // size of the smallest cells
-	bool                                  inTime   = false;
+	Real                                  begin = 0, target = 0, end = 0;  // times of the run; end: of the last step
+	Real                                  dt       = 0;                    // time step of YADE
+	Real                                  cellSize = 0;                    // size of the smallest cells
+	bool                                  inTime = false, hasFlow = false; // hasFlow: with MpmFlow
 	SoilAtBody                            soil;
 	string                                coefficient; // doubt about an angle of friction
 	string                                distance;    // and about where the bodies are

@@ -32,7 +32,7 @@ namespace {
 		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
 		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
 		        isBetween ? gimpm::sentence(
-		                "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone: bodies do not part it beside ",
+		                "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone, and water of MpmFlow passes: bodies do not part it beside ",
 		                inItsWay.empty() ? "five others near them, nor where they are hardly longer than a cell" : inItsWay, ". ")
 		                  : "",
 		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
