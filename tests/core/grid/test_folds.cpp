@@ -3,6 +3,7 @@
 #include "core/grid/folds.hpp"
 #include "core/grid/parting.hpp"
 #include "core/grid/parts_of_body.hpp"
+#include "refined.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testFolds {
@@ -11,8 +12,15 @@ namespace {
 	/// Two legs with a slot between them, on a base: from x = 0 to 7, the slot from x = 3 on, above y = 2; in space
 	/// one cell thick. With layers of bodies of one bit, in layer 1.
 	template <int Dim> struct Slotted {
-		explicit Slotted(double slot)
+		/// `isHalved`: on cells of twice the size, halved beside and above the slot.
+		explicit Slotted(double slot, bool isHalved = false)
 		{
+			if (isHalved) {
+				Vec<Dim> low = Vec<Dim>::Constant(-10), high = -low;
+				low[0] = 3 - 1, low[1] = 0, high[0] = 3 + slot + 1, high[1] = 20;
+				grid.cellSize = 2, grid.refinement = std::make_shared<Refinement<Dim>>(std::vector<RefinedBox<Dim>> { { low, high, 1 } }, grid),
+				grid.cellSize = 1;
+			}
 			constexpr double half  = 0.25;
 			Index<Dim>       count = Index<Dim>::Constant(2);
 			count[0] = int(std::lround(14 + slot / half / 2)), count[1] = 16;
@@ -76,6 +84,19 @@ namespace {
 			if (normal[0] > 0.9) EXPECT_EQ(layers[i], 1);
 			if (normal[0] < -0.9) EXPECT_EQ(layers[i], 3);
 		}
+	}
+
+	/// The same on cells of two sizes, of which the smaller ones are around the slot.
+	TYPED_TEST(Folds, SidesHaveNodesOfTheirOwnOnHalvedCells)
+	{
+		constexpr int      Dim = TypeParam::value;
+		const Slotted<Dim> equal(0.5), halved(0.5, true);
+		ASSERT_TRUE(halved.grid.parting && halved.grid.refinement);
+		EXPECT_TRUE(halved.isOwn(3, 7, 3));
+		EXPECT_FALSE(halved.isOwn(3, 2, 3));
+		for (std::size_t p = 0; p < equal.cloud.size(); ++p)
+			if (const Vec<Dim>& x = equal.cloud.position[p]; x[1] > 5 && std::abs(x[0] - 3.25) < 1)
+				EXPECT_EQ(halved.cloud.layer[p], equal.cloud.layer[p]);
 	}
 
 	/// A slot of two cells keeps its sides apart without nodes of their own, but they are watched; one of four is

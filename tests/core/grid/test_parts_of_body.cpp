@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Parts of a body of points, and their surfaces.
 #include "core/grid/parts_of_body.hpp"
+#include "refined.hpp"
 #include "scenes.hpp"
 #include <numeric>
 
@@ -48,6 +49,20 @@ namespace {
 			std::vector<int> owners(all.size(), 7);
 			std::fill(owners.begin(), owners.begin() + all.size() / 2, 3);
 			EXPECT_EQ(sharingNodes<Dim>(all, owners, Vec<Dim>::Zero(), 1).size(), gap < 1 ? 1u : 0u) << gap;
+		}
+	}
+
+	/// Where cells are halved a gap of a small cell parts, elsewhere one of a large cell.
+	TYPED_TEST(PartsOfBody, GapsPartByTheCellsAroundThem)
+	{
+		constexpr int    Dim   = TypeParam::value;
+		const Index<Dim> count = Index<Dim>::Constant(4);
+		for (const auto& [start, gap, expected] : { std::tuple(0., 0.5, 2), std::tuple(0., 0.3, 1), std::tuple(20., 0.5, 1), std::tuple(20., 1., 2) }) {
+			Vec<Dim> from = Vec<Dim>::Zero(), to = from;
+			from[0] = start, to[0] = start + 2 + gap;
+			const auto grid  = refinedGrid<Dim>({ { Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10), 1 } });
+			const auto parts = partsBySharedNodes<Dim>(joined(boxes<Dim>(count, 0.5, from), boxes<Dim>(count, 0.5, to)), grid);
+			EXPECT_EQ(*std::max_element(parts.begin(), parts.end()) + 1, expected) << start << " " << gap;
 		}
 	}
 
