@@ -24,6 +24,7 @@ options = readOptions('A cone with pore pressures, by its velocity.',
         cells=(3, 'over the radius'),
         halvings=(1, 'most halvings of the cells at edges (MpmGrid.adaptation)'),
         pointsPerCell=(2, 'material points per cell and axis'),
+        ghost=(0.01, 'factor of the stabilisation (MpmGhost)'),
         travel=(8., 'way in radii'),
         stepsPerCell=(8, 'load steps while the cone moves by a cell'))
 R, p0, e0, k = 0.01785, 1e5, 1.2, 1e-9  # radius [m], effective stress [Pa], void ratio [-], conductivity [m/s]
@@ -50,7 +51,7 @@ def scene(kind, velocity):
 	mpm.assign(stress=np.repeat(-p0 * np.eye(3)[None], len(points), axis=0))
 	sides = [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -depth, inf), fix='xy')]
 	flow = MpmFlow(drains=[MpmDrain(surface=[(width, -depth), (width, 0)])]) if kind == 'flow' else None
-	solver = MpmImplicitEngine(grid=grid, fBar=kind == 'undrained', boundaries=sides, loads=[MpmTraction(surface=[(width, 0), (R, 0)], pressure=p0)], loadCurve=[(0, 1)], flow=flow, contacts=[MpmContact(friction=0, stiffness=10)], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	solver = MpmImplicitEngine(grid=grid, fBar=kind == 'undrained', boundaries=sides, loads=[MpmTraction(surface=[(width, 0), (R, 0)], pressure=p0)], loadCurve=[(0, 1)], flow=flow, contacts=[MpmContact(friction=0, stiffness=10)], ghost=MpmGhost(factor=options.ghost), newton=MpmNewton(minStep=1 / 64), verbosity=0)
 	O.engines, O.dt = [solver], h / options.stepsPerCell / velocity
 	return solver, cone
 

@@ -185,6 +185,7 @@ add('fold-free', 'folding.free', dict(momentum=atMost(1e-12), gain=atMost(1e-3),
 
 # 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics
 add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])
+add('random-stabilised', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000], ghost=.1)
 
 # 10. Bodies of points that meet, at random: the part of the scenes that ends, how many win energy, and what is left over of forces in statics, of momenta in time
 add('meeting', 'meeting.drawn', dict(ended=atLeast(.995), gains=atMost(0), balance=atMost(1e-6)), dict(seeds=[0, 30], seconds=60), seeds=[0, 300], seconds=300)
