@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/parting_lines.hpp"
+#include "core/grid/surface.hpp"
 #include "core/structures/cuts.hpp"
 #include "core/structures/from_line.hpp"
 
@@ -106,6 +107,29 @@ int sideWithin(const PartingLine& line, const Vec<2>& position, double reach)
 	return at.side > 0 ? 1 : -1;
 }
 
+/// True if the way between two positions goes through a line, be it at one of them.
+bool isThrough(const std::vector<Vec<2>>& line, const Vec<2>& a, const Vec<2>& b)
+{
+	Surface<2> surface;
+	surface.vertices = line;
+	for (int i = 0; i + 1 < int(line.size()); ++i)
+		surface.pieces.push_back({ i, i + 1 });
+	return surface.isBetween(a, b);
+}
+
+/// Tells each line of the others near it that part the soil, too.
+void noteOthers(const std::vector<PartingLine*>& lines, const Grid<2>& grid)
+{
+	constexpr double near = 3; // [cells]
+	for (PartingLine* line : lines) {
+		const Bounds<2> around(line->positions, near * largestCell(grid));
+		for (const PartingLine* other : lines)
+			if (other != line && other->layer > 0
+			    && std::any_of(other->positions.begin(), other->positions.end(), [&](const Vec<2>& x) { return around.contain(x); }))
+				line->others.push_back(other->positions);
+	}
+}
+
 } // namespace
 
 double awayFrom(const PartingLine& line, const Vec<2>& position) { return fromLine(line.positions, position).away; }
@@ -130,7 +154,7 @@ double sideFrom(const PartingLine& line, const Vec<2>& position) { return fromLi
 void lookBetween(const std::vector<PartingLine*>& lines, const PointCloud<2>& cloud, const Grid<2>& grid)
 {
 	for (PartingLine* line : lines)
-		line->layer = 0, line->isTip = {}, line->isBetween = isBetween(*line, cloud, grid);
+		line->layer = 0, line->isTip = {}, line->others.clear(), line->isBetween = isBetween(*line, cloud, grid);
 }
 
 BesideLine::BesideLine(const PartingLine& line, int side, const PointCloud<2>& cloud) : line_(line), side_(side), cloud_(cloud) { }
@@ -138,8 +162,11 @@ BesideLine::BesideLine(const PartingLine& line, int side, const PointCloud<2>& c
 bool BesideLine::operator()(int p) const
 {
 	const int layer = cloud_.layerOf(p);
-	if (layer != 0 && (side_ > 0 || layer != line_.layer)) return false;
-	return side_ * fromLine(line_.positions, cloud_.position[p]).side > 0;
+	if (layer != 0 && line_.others.empty() && (side_ > 0 || layer != line_.layer)) return false;
+	if (side_ > 0 && (layer & line_.layer)) return false;
+	const FromLine at = fromLine(line_.positions, cloud_.position[p]);
+	return side_ * at.side > 0
+	        && std::none_of(line_.others.begin(), line_.others.end(), [&](const auto& other) { return isThrough(other, at.foot, cloud_.position[p]); });
 }
 
 std::vector<int> sidesOf(const std::vector<PartingLine*>& lines, const std::vector<Vec<2>>& positions, double cellSize)
@@ -160,6 +187,7 @@ void partSoil(const std::vector<PartingLine*>& lines, PointCloud<2>& cloud, Grid
 	const std::vector<PartingLine*> none;
 	lookBetween(lines, cloud, grid);
 	partByCuts<2>(lines, cloud, grid, mayBeNear, [&](PartingLine& line) { return longer(line, mayBeNear ? lines : none, cloud, grid); });
+	if (mayBeNear) noteOthers(lines, grid);
 }
 
 } // namespace gimpm

@@ -22,6 +22,8 @@ struct PartingLine {
 	int layer = 0;
 	/// In this step: it has soil on both of its sides, and parts it or does not.
 	bool isBetween = false;
+	/// In this step: other lines nearby that part the soil.
+	std::vector<std::vector<Vec<2>>> others {};
 	/// In this step: its first and its last vertex are tips of a cut, with soil beyond them.
 	std::array<bool, 2> isTip {};
 
@@ -57,8 +59,8 @@ bool                isAtMiddle(const PartingLine&, const Vec<2>& position, doubl
 void lookBetween(const std::vector<PartingLine*>&, const PointCloud<2>&, const Grid<2>&);
 
 /// Points on one side (1 left, -1 right) of a line that parts the soil, and of its straight continuation beyond its
-/// ends. Not all points to its right have its layer: those that are far from nodes of their own have the layer of the
-/// others.
+/// ends, and of other lines nearby. Not all points to its right have its layer: those that are far from nodes of their
+/// own have the layer of the others.
 class BesideLine {
 public:
 	BesideLine(const PartingLine&, int side, const PointCloud<2>&);

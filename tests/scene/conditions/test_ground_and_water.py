@@ -274,4 +274,4 @@ print(json.dumps([alone, differ, same, gone, flow]))
 	assert differ[0] == pytest.approx(3e4, rel=.01) and differ[1] == pytest.approx(hand, rel=.1)
 	assert same[0] < 100 and same[1] < .01 * hand
 	assert gone[1] == pytest.approx(gone[0], rel=1e-9)
-	assert 'loads[1].permittivity = 0' in flow[0] and 'another beam within three cells' in flow[0] and flow[1] == 'nothing was refused'
+	assert flow == ['nothing was refused'] * 2

@@ -192,7 +192,7 @@ void Beams::requirePermeable() const
 		if (!flow || !beam.isBetween || beam.layer > 0 || std::isinf(sources[i].from->permittivity)) continue;
 		throw std::invalid_argument(gimpm::sentence(
 		        beam.name, ".permittivity = ", sources[i].from->permittivity, ": the soil on its two sides is one body, because of ",
-		        inItsWay.empty() ? "another beam within three cells" : inItsWay,
+		        inItsWay.empty() ? "five others near it" : inItsWay,
 		        ", and water of MpmFlow passes it as if there were none. Leave that out, or give permittivity = inf."));
 	}
 }
@@ -212,7 +212,7 @@ void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
 	if (!inItsWay.empty()) gimpm::lookBetween(lines(), cloud, model.grid);
 	else
-		gimpm::partSoil(lines(), cloud, model.grid);
+		gimpm::partSoil(lines(), cloud, model.grid, true);
 	requirePermeable();
 	if (processesCount > 1) requireWhole();
 	sides = gimpm::sidesOf(lines(), cloud.position, model.grid.cellSize);
@@ -330,7 +330,7 @@ std::map<string, string> Beams::warnings() const
 			found["beside " + beam.name] = gimpm::sentence(
 			        beam.name,
 			        " has soil on both of its sides, which stays one body, as rough along the beam as it is itself: beams do not part it beside ",
-			        inItsWay.empty() ? "another one within three cells, nor where they are hardly longer than a cell" : inItsWay,
+			        inItsWay.empty() ? "five others near them, nor where they are hardly longer than a cell" : inItsWay,
 			        ". Pressures and moments of a wall are too small then.");
 		for (const int end : { 0, 1 })
 			if (const Real share = shareOfTip(beam, end); share > 0)
