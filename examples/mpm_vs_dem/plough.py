@@ -121,7 +121,7 @@ for name, law, style in ('friction at large strain', constant, 'C0-'), ('frictio
 	if law is constant: compared('draft of a blade in dry grains, friction at large strain, from 0.2 z on', ours[late].mean(), known[1], 'Rankine 1857, the wedge risen', 'rho g z^2 / 2')
 	compared(f'draft of a blade in dry grains, {name}, from 0.2 z on', ours[late].mean(), mean[late].mean(), f'DEM, mean of {len(seeds)} seeds, the same bed in grains', 'rho g z^2 / 2')
 for name, phi, style in ('the peak', peak, 'k--'), ('large strain', last, 'k-'): ax.plot(ways / z, passive(np.radians(phi), ways), style, lw=0.8, label=f'passive wedge, friction at {name}')
-ax.set(xlabel='travel / z', ylabel=r'draft / ($\rho g z^2 / 2$)', xlim=(0, options.travel), ylim=(0, None))
+ax.set(xlabel='travel / z', ylabel=r'draft / ($\rho g z^2 / 2$)', xlim=(0, options.travel), ylim=(0, 10))
 ax.legend(frameon=False, fontsize=8)
 figure.savefig(os.path.join(options.out, 'plough.png'), dpi=100)
 print(f'written: {options.out}/plough.png')
