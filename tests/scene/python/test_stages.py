@@ -180,7 +180,7 @@ undrained = '''
 import json
 import numpy as np
 from yade import mpm
-pores = dict(undrained=dict(undrained=True, waterModulus=5e8), flowing=dict(conductivity=0, porosity=.4), drained={})
+pores = dict(undrained=dict(undrained=True, waterModulus=5e8), flowing=dict(conductivity=0, porosity=.4), byPoint=dict(conductivity=1e-3, porosity=.4), drained={})
 def ground(kind, wall=1e9):
 	O.reset()
 	O.materials.append([MpmElasticMat(young=1e6, poisson=.3, density=1800, label='clay', **pores[kind]), MpmElasticMat(young=wall, poisson=.3, density=1800, label='wall')])
@@ -188,7 +188,8 @@ def ground(kind, wall=1e9):
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3, 0), (3, 2), (0, 2)]), grid, 2, 'clay'))
 	sides = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(3, -inf, -inf), fix='x')]
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 0), (2, 1)], boundaries=sides, fBar=True, verbosity=0)
-	if kind == 'flowing': solver.flow = MpmFlow(drains=[MpmDrain(surface=[(1, 2), (0, 2)])])
+	if kind == 'byPoint': mpm.assign(conductivity=[0] * len(O.bodies))
+	if kind in ('flowing', 'byPoint'): solver.flow = MpmFlow(drains=[MpmDrain(surface=[(1, 2), (0, 2)])])
 	O.engines, O.dt = [solver], 1
 	O.run(2, wait=True)
 	mpm.stages.resetDisplacements()
@@ -227,3 +228,4 @@ print(json.dumps(out))
 	for kind, heave in found.items():
 		assert [up / heave[-1] for up in heave] == pytest.approx([.25, .5, .75, 1], abs=.02), kind
 	assert 0 < found['undrained'][-1] < .7 * found['drained'][-1] and found['flowing'][-1] == pytest.approx(found['undrained'][-1], rel=.1)
+	assert found['byPoint'] == pytest.approx(found['flowing'], rel=1e-9) # what is dug out keeps the conductivities of its points

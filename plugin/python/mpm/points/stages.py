@@ -29,6 +29,7 @@ from .suction import pressureOnGrains
 __all__ = ['place', 'excavate', 'replace', 'release', 'resetDisplacements']
 nameInScenes('stages', __name__)
 _softness = 0.05  # part of its stiffness that is left to soil that is dug out
+_ofPores = 'conductivity', 'verticalConductivity', 'porosity', 'alpha', 'entry', 'n', 'exponent', 'residual', 'saturated'  # what it keeps of parameters of points
 
 
 def place(bodies, steps=1, solver=None):
@@ -300,13 +301,14 @@ def _twin(material, label, ids, **changes):
 
 
 def _soft(material, label, ids):
-	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
+	"""The same of an elastic one with a part of the stiffness, without memory; points keep what their pores have of their own."""
 	young, poisson = _elastic(material)
 	ofPores = {name: getattr(material, name) for name in ('conductivity', 'porosity', 'conductivityLaw', 'conductivityIndex', 'retention')}
 	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density, **ofPores)
 	for body in _here(ids):
 		if body.material != material: continue
-		body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
+		body.state.internals, body.state.plasticStrain = [], 0
+		body.state.parameters = [(name, value) for name, value in body.state.parameters if name in _ofPores]
 		if material.undrained: body.state.excessPressure = 0
 	return _give(soft, material, label, ids)
 
