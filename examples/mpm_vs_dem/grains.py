@@ -5,6 +5,8 @@ The layer counts as one mean diameter thick, which turns forces into stresses. A
 after slip in shear it stays, and new contacts have adhesion, too: a ductile material whose strength is cohesion, with hardly any
 friction.
 """
+import time
+
 import numpy as np
 from yade import utils
 from yade.minieigenHP import Matrix3
@@ -253,3 +255,11 @@ def strength(layer, pressures, strain):
 		half = along[peak:][mobilised[peak:] < (mobilised.max() + mobilised[-10:].mean()) / 2]
 		angles.append([*np.degrees(np.arcsin([mobilised.max(), mobilised[-10:].mean(), opens / (2 + opens)])), half[0] - along[peak] if len(half) else strain])
 	return np.mean(angles, axis=0), along, np.degrees(np.arcsin(mobilised))
+
+
+def meanStrength(options, diameter, friction):
+	"""Means of strength over the samples of all seeds of a script, which are printed: friction angle at the peak and at large strain, dilation angle [degrees], shortening of the fall."""
+	began, size, seeds, pressures = time.process_time(), options.sample / options.grains, options.seeds.split(), [float(pressure) for pressure in options.pressures.split()]
+	peak, last, opens, fall = np.mean([strength(Layer(size, size, diameter, int(seed), friction), pressures, options.strain)[0] for seed in seeds], axis=0)
+	print(f'grains: friction {peak:.1f} degrees at the peak, {last:.1f} at large strain, dilation {opens:.1f}; {time.process_time() - began:.0f} s for {len(seeds)} samples', flush=True)
+	return peak, last, opens, fall

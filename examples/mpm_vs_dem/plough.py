@@ -93,12 +93,7 @@ def ofContinuum(law):
 	return np.array(found), len(mpm.arrays()['id'])
 
 
-began, found = time.process_time(), []
-for seed in seeds:
-	size = options.sample / options.grains
-	found.append(grains.strength(grains.Layer(size, size, d, seed, friction), list(map(float, options.pressures.split())), options.strain)[0])
-peak, last, opens, fall = np.mean(found, axis=0)
-print(f'grains: friction {peak:.1f} degrees at the peak, {last:.1f} at large strain, dilation {opens:.1f}; {time.process_time() - began:.0f} s for {len(seeds)} samples', flush=True)
+peak, last, opens, fall = grains.meanStrength(options, d, friction)
 began, drafts = time.process_time(), []
 for seed in seeds:
 	draft, number = ofGrains(seed)

@@ -135,12 +135,8 @@ def spread(values):
 	return np.std(values, axis=0, ddof=1) if len(values) > 1 else np.zeros(np.shape(values[0]))
 
 
-began, found, layers = time.process_time(), [], {}
-for seed in seeds:
-	size = options.sample / options.grains
-	found.append(grains.strength(grains.Layer(size, size, d, seed, friction), list(map(float, options.pressures.split())), options.strain)[0])
-peak, last, opens, _ = np.mean(found, axis=0)
-print(f'grains: friction {peak:.1f} degrees at the peak, {last:.1f} at large strain, dilation {opens:.1f}; {time.process_time() - began:.0f} s for {len(seeds)} samples', flush=True)
+_, last, *_ = grains.meanStrength(options, d, friction)
+layers = {}
 phi = np.radians(last)
 K, mu, unit = 1 - np.sin(phi), np.tan(wallFriction), rho * g * W
 figure, (wall, flow, law) = plt.subplots(1, 3, figsize=(13, 4.2), layout='constrained')
