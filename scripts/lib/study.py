@@ -11,6 +11,7 @@ import importlib
 import os
 import queue
 import shlex
+import shutil
 import subprocess
 import sys
 import threading
@@ -82,8 +83,8 @@ class Study:
 
 	@property
 	def provenance(self):
-		"""Day and revision of a run."""
-		revision = subprocess.run(['git', '-C', root, 'describe', '--always', '--dirty'], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+		"""Day and revision of a run, where git is there to tell it."""
+		revision = shutil.which('git') and subprocess.run(['git', '-C', root, 'describe', '--always', '--dirty'], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
 		return time.strftime('%d %B %Y') + f', revision {revision}' * bool(revision)
 
 	def table(self, keys, values, name=None):

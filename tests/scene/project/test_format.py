@@ -3,10 +3,13 @@
 import re
 import subprocess
 
+import pytest
 from conftest import root
 
 
 def test_codeIsFormatted():
+	version = subprocess.run(['clang-format', '--version'], stdout=subprocess.PIPE, text=True).stdout
+	if ' version 14.' not in version: pytest.skip(f'Debian 12 has clang-format 14, and others format otherwise: {version.strip()}')
 	sources = [path for folder in ('plugin', 'tests') for path in (root / folder).rglob('*.[ch]pp')]
 	assert len(sources) > 100
 	run = subprocess.run(['clang-format', '--dry-run', '--Werror', *sources], cwd=root, stderr=subprocess.PIPE, text=True)
