@@ -18,6 +18,7 @@ parser.add_argument('--dim', type=int, default=2, help='2 or 3 (default %(defaul
 parser.add_argument('--cells', default='32,64', help='along each side, one run each (default %(default)s)')
 parser.add_argument('--steps', type=int, default=5, help='that are counted, after one that is not (default %(default)s)')
 parser.add_argument('--dt', default='1e5', help='lengths of a step [s], one run each (default %(default)s); h2/c_v is printed')
+parser.add_argument('--keepFactor', type=int, default=0, help='solves with the factor of an earlier step (default %(default)s)')
 options = parser.parse_args()
 L, young, poisson, k = 8., 1e7, .3, 1e-8
 modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
@@ -37,6 +38,7 @@ def layer(cells, flows, dt):
 	square = lambda b: [(b, L), (0, L)] if dim == 2 else [[(0, 0, L), (b, 0, L), (b, b, L)], [(0, 0, L), (b, b, L), (0, b, L)]]
 	load = MpmTraction(surface=square(L / 4), traction=tuple(-5e4 * a for a in up))
 	solver = MpmImplicitEngine(grid=grid, boundaries=sides, loads=[load], verbosity=0, newton=MpmNewton(linearSolver='amg' if dim == 3 else 'direct'))
+	solver.newton.keepFactor = options.keepFactor
 	solver.loadCurve = [(0, 0), ((options.steps + 1) * dt, 1)]
 	if flows: solver.flow = MpmFlow(drains=[MpmDrain(surface=square(L))])
 	O.engines, O.dt = [solver], dt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Step 4: the linear system on the free degrees of freedom.
 #pragma once
+#include "core/solvers/kept_factor.hpp"
 #include "core/solvers/linear_method.hpp"
 #include "core/solvers/linear_problem.hpp"
 #include <memory>
@@ -61,6 +62,8 @@ public:
 	void               resetTimes() { times_ = {}, effort_ = {}; }
 
 	const IterativeEffort& iterativeEffort() const { return effort_; }
+
+	KeptFactor kept; ///< the factor of the last direct solve
 
 private:
 	struct Direct;

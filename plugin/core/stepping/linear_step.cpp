@@ -29,6 +29,8 @@ template <int Dim> bool LinearStep<Dim>::solve(const Residual<Dim>& at, const Ei
 		problem.stored();
 	}
 	using Status = LinearSolver::Status;
+	isOld_       = false;
+	solver_.kept.discard();
 	Eigen::VectorXd correction;
 	hasSigns_               = couplings && problem.isSymmetric();
 	const bool   isDefinite = problem.isSymmetric() && !problem.hasSigns();
@@ -38,10 +40,44 @@ template <int Dim> bool LinearStep<Dim>::solve(const Residual<Dim>& at, const Ei
 		method_ = LinearMethod::direct; // systems that could not be solved iteratively once stay difficult
 		if (isDefinite) report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
 	}
+	if (keepsFactor_ && system_.model.newton.keepFactor > 0) solver_.kept.renew(unknowns(), hasSigns_);
 	if (status == Status::singular) return false;
 	report_.luSolves += status == Status::lu;
 	addTo(step, correction);
 	return true;
+}
+
+template <int Dim> KeptFactor::Unknowns LinearStep<Dim>::unknowns() const
+{
+	KeptFactor::Unknowns those { system_.dofs.number, {} };
+	for (int field = 0; field < system_.map.fields(); ++field)
+		those.scales.push_back(system_.map[field].scale);
+	return those;
+}
+
+template <int Dim> bool LinearStep<Dim>::takesOver(bool isComplete)
+{
+	if (system_.model.newton.keepFactor == 0) return false;
+	std::int64_t isOffered = solver_.kept.isOffered(unknowns()) && isComplete;
+	system_.ownedNodes().processes.smallest(&isOffered, 1);
+	hasSigns_     = solver_.kept.hasSigns();
+	return isOld_ = keepsFactor_ = isOffered;
+}
+
+template <int Dim> void LinearStep<Dim>::noteReduction(double part)
+{
+	if (isOld_ && again_++ == 0) solver_.kept.note(part);
+}
+
+template <int Dim> void LinearStep<Dim>::hasConverged()
+{
+	if (isOld_) solver_.kept.hasServed();
+}
+
+template <int Dim> void LinearStep<Dim>::dropFactor()
+{
+	if (isOld_) solver_.kept.hasFailed();
+	isOld_ = keepsFactor_ = false;
 }
 
 template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step)

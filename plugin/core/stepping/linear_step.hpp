@@ -23,10 +23,25 @@ public:
 
 	/// True if the factor of the last solve is kept: of Cholesky or, where K is not symmetric, of LU.
 	bool keepsFactor() const { return keepsFactor_; }
-	void dropFactor() { keepsFactor_ = false; }
+	void dropFactor();
+
+	/// True if the factor of an earlier step is there for this one (NewtonSettings::keepFactor), which begins with
+	/// all that is prescribed or not.
+	bool takesOver(bool isComplete);
+
+	/// True if the factor that is kept is that of an earlier step, and this excess of the residual is gone after
+	/// the solves with it that are left.
+	bool isOfEarlierStep() const { return isOld_; }
+	bool isOldFactorEnough(double excess) const { return solver_.kept.isEnough(excess, system_.model.newton.keepFactor - again_); }
+
+	/// A solve with the factor that is kept has left this part of the residual; the step has converged.
+	void noteReduction(double part);
+	void hasConverged();
 
 private:
 	template <class F> void forFree(F&& f) const; // f(unknown, number, scale)
+
+	KeptFactor::Unknowns unknowns() const;
 
 	Eigen::VectorXd withSigns(Eigen::VectorXd residual) const;
 	void            addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;
@@ -37,6 +52,8 @@ private:
 	LinearMethod           method_      = system_.model.newton.linearSolver;
 	bool                   keepsFactor_ = false;
 	bool                   hasSigns_    = false; // the last matrix: Field::sign
+	bool                   isOld_       = false; // the factor is that of an earlier step
+	int                    again_       = 0;     // solves with it
 };
 
 } // namespace gimpm

@@ -44,6 +44,8 @@ struct NewtonSettings {
 	LinearMethod linearSolver      = LinearMethod::automatic;
 	/// Reuse of the factor of the last solve, where the convergence history says that it suffices.
 	bool reuseFactor = true;
+	/// Solves of a step that may take the factor of an earlier step, by the modified Newton method; 0: none.
+	int keepFactor = 0;
 	/// Asked once per iteration; may be empty.
 	std::function<bool()> interrupted;
 	/// On rateChange() of a step without inertia that has a prediction [m].

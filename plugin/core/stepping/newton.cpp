@@ -89,7 +89,7 @@ template <class F> Shortened lineSearch(const NewtonStep& step, int trials, F&& 
 ///     start           d = 0, the inertial predictor, or the prediction
 ///                     r = f_ext - f(d), K = df/dd
 ///     ConvergenceTest until |r| <= tolerance |f_ext + reactions|, and the like around each node, or it fails
-///     reuseFactor         s = K_last^-1 r, where the last factor is expected to be enough
+///     reuseFactor         s = K_last^-1 r, where the last factor, which may be that of an earlier step, is expected to be enough
 ///                         r at d + s
 ///                         d = d + s, next iterate, if |r| is smaller there
 ///     correct             s_p = prescribed growth, first time, else 0;  s_u = K_uu^-1 (r - K_up s_p)
@@ -105,6 +105,7 @@ public:
 	{
 		start(prediction);
 		while (!test_.ends(d_, hasPrescribed_) && (reuseFactor() || correct())) { }
+		if (report_.converged()) linear_.hasConverged();
 		report_.iterations += test_.solves();
 		report_.reactions  = reactions(system_, residual_.force);
 		report_.looseForce = looseForce(system_, residual_.force);
@@ -118,7 +119,8 @@ private:
 	void start(const Eigen::VectorXd& prediction)
 	{
 		const bool predicts = prediction.size() > 0;
-		if (!startByInertia()) residual_.evaluate(d_, !predicts);
+		needsJacobian_      = !linear_.takesOver(hasPrescribed_);
+		if (!startByInertia()) residual_.evaluate(d_, !predicts && needsJacobian_);
 		residual_.begin();
 		report_.predicted = predicts && startFrom(prediction);
 	}
@@ -127,7 +129,7 @@ private:
 	bool startByInertia()
 	{
 		if (!system_.hasInertia()) return false;
-		residual_.evaluate(system_.inertialPredictor, true);
+		residual_.evaluate(system_.inertialPredictor, needsJacobian_);
 		if (residual_.failure) return false;
 		d_             = system_.inertialPredictor;
 		hasPrescribed_ = true;
@@ -146,9 +148,9 @@ private:
 		for (int i = 0; i < prediction.size(); ++i)
 			if (system_.dofs.number[i] < 0) prediction[i] = system_.prescribed[i];
 		system_.constraints.template distribute<Dim>(system_.map, prediction);
-		residual_.evaluate(prediction, true);
+		residual_.evaluate(prediction, needsJacobian_);
 		if (!(residual_.norm < tolerated * fromZero)) {
-			residual_.evaluate(d_, true);
+			residual_.evaluate(d_, needsJacobian_);
 			return false;
 		}
 		d_ = std::move(prediction);
@@ -156,10 +158,20 @@ private:
 		return hasPrescribed_ = true;
 	}
 
+	/// True if the factor that is kept is expected to be enough. One of an earlier step that is not is dropped.
+	bool mayReuse()
+	{
+		if (!linear_.keepsFactor() || watchdog_.isOpen()) return false;
+		if (!linear_.isOfEarlierStep()) return test_.history.isLastFactorEnough();
+		if (linear_.isOldFactorEnough(test_.history.excess())) return true;
+		linear_.dropFactor();
+		return false;
+	}
+
 	/// Modified Newton step with the factor of the last solve. Unless it reduces the residual nothing is changed.
 	bool reuseFactor()
 	{
-		if (!linear_.keepsFactor() || watchdog_.isOpen() || !test_.history.isLastFactorEnough()) return false;
+		if (!mayReuse()) return false;
 		Eigen::VectorXd step   = Eigen::VectorXd::Zero(d_.size());
 		const double    before = residual_.norm;
 		if (!linear_.solveAgain(residual_.values, step)) return false;
@@ -169,6 +181,7 @@ private:
 			residual_.evaluate(d_, true);
 			return false;
 		}
+		linear_.noteReduction(residual_.norm / before);
 		++report_.reusedFactors;
 		d_ += step;
 		return true;
@@ -241,6 +254,7 @@ private:
 	Watchdog               watchdog_;
 	Eigen::VectorXd        d_             = Eigen::VectorXd::Zero(system_.map.size());
 	bool                   hasPrescribed_ = !system_.prescribed.any(); // d has the prescribed growth
+	bool                   needsJacobian_ = true;                      // of the first iterate: no earlier factor is there
 };
 
 } // namespace

@@ -13,6 +13,7 @@ public:
 	bool   acceptUnconverged = false;
 	bool   predictor         = true;
 	bool   reuseFactor       = true;
+	int    keepFactor        = 0;
 	string linearSolver      = "auto";
 	Real   stepTolerance     = 0;
 
@@ -46,6 +47,10 @@ public:
 		v("reuseFactor", &MpmNewton::reuseFactor, 0,
 		  "True: a step's last iterations keep the factorised matrix of the one before where that suffices: the same states to *tolerance*, fewer "
 		  "factorisations. False: never, as in the paper.");
+		v("keepFactor", &MpmNewton::keepFactor, 0,
+		  "Solves of a step [-] >= 0 that may take the factorised matrix of an earlier step, while so few are expected to suffice: 3 where steps change "
+		  "little. 0: none.",
+		  atLeast(0));
 		v("linearSolver", &MpmNewton::linearSolver, 0,
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "
 		  "'amg': these with algebraic multigrid (PETSc); 'auto': as it needs.",

@@ -38,6 +38,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
 	model.newton.reuseFactor      = newton.reuseFactor;
+	model.newton.keepFactor       = newton.keepFactor;
 	model.newton.linearSolver     = linearMethod(newton.linearSolver);
 	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::ConstrainedBox<Dim>::ofAxis(model.grid) });
 	for (const auto& condition : conditions)

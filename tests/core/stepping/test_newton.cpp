@@ -167,6 +167,41 @@ namespace {
 			EXPECT_LT((each.cloud.position[p] - reusing.cloud.position[p]).norm(), 1e-7) << p;
 	}
 
+	/// Ten load steps from the one at which the factor is first known, and how many factors they take.
+	template <int Dim> std::pair<Block<Dim>, int> tenSteps(const Law& law, int keepFactor)
+	{
+		std::pair<Block<Dim>, int> found { Block<Dim>(law), 0 };
+		Block<Dim>&                b = found.first;
+		b.model.newton.tolerance     = 1e-8;
+		b.model.newton.keepFactor    = keepFactor;
+		b.load.ofGravity             = LoadFactor { 0.5, 0.5 };
+		EXPECT_TRUE(b.step().converged());
+		for (int i = 0; i < 10; ++i) {
+			b.load.ofGravity        = LoadFactor { b.load.ofGravity->value + 0.01, 0.01 };
+			const StepReport report = b.step();
+			EXPECT_TRUE(report.converged()) << report.cause;
+			EXPECT_LE(report.residual(), 1e-8);
+			found.second += report.iterations - report.reusedFactors;
+		}
+		return found;
+	}
+
+	TYPED_TEST(Newton, AFactorServesStepsThatChangeLittle)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const Law& law : { Law(Hencky(2e7, 0.3)), Law(VonMises(2e6, 0.3, 1e4)) }) {
+			const bool isElastic        = std::holds_alternative<Hencky>(law);
+			const auto [each, factors]  = tenSteps<Dim>(law, 0);
+			const auto [keeping, fewer] = tenSteps<Dim>(law, 3);
+			for (std::size_t p = 0; p < each.cloud.size(); ++p)
+				EXPECT_LT((each.cloud.position[p] - keeping.cloud.position[p]).norm(), 1e-7) << p;
+			EXPECT_GE(factors, 10);
+			if (isElastic) EXPECT_LE(fewer, 1);
+			else
+				EXPECT_LE(fewer, factors + 1) << "what changes more goes on with its own";
+		}
+	}
+
 	TYPED_TEST(Newton, ALoadBelowTheToleranceIsNotLost)
 	{
 		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));

@@ -163,6 +163,7 @@ outOfRange = {
         'MpmNewton.acceptUnconverged': None,
         'MpmNewton.predictor': None,
         'MpmNewton.reuseFactor': None,
+        'MpmNewton.keepFactor': ['-1'],
         'MpmNewton.linearSolver': ['"cg"'],
         'MpmNewton.stepTolerance': ['-1e-3'],
         'MpmImplicitEngine.grid': ['None'],
