@@ -29,7 +29,7 @@ runs = {
         'water': ['water.py', 'dam.py', 'drawdown.py', 'reservoir.py'],
         'consolidation': ['consolidation.py'],
         'rain': ['rain.py', 'recharge.py', 'drawdown.py'],
-        'embankment': ['embankment.py'],
+        'embankment': ['embankment.py', 'vasby.py'],
         'sheet_pile': ['sheet_pile.py', 'sheet_pile.py --cellSize 0.25 --depth 3'],
         'lined_tunnel': ['lined_tunnel.py', 'shaft.py'],
         'penetration': [

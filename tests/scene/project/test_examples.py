@@ -727,6 +727,15 @@ def test_embankment(yade):
 	assert (run.folder / 'out/embankment/embankment.png').stat().st_size > 20000
 
 
+def test_test_fill(yade):
+	"""Settlement and pressure of a fill in 32 years: nearly all pressure has gone, and the field has settled twice as much."""
+	run = yade(root / 'examples' / 'embankment' / 'vasby.py', '--cellSize', 1, '--steps', 8)
+	found = [list(map(float, line)) for line in re.findall(r'\d+ years: (\S+) m, measured (\S+); largest excess pressure (\S+) kPa, measured', run.stdout)]
+	assert len(found) == 2 and 0.55 < found[0][0] < found[1][0] < 0.7 and 10 > found[0][2] > found[1][2] > 0, run.stdout
+	assert all(0.35 < settled / measured < 0.5 for settled, measured, _ in found)
+	assert (run.folder / 'out/vasby/vasby.png').stat().st_size > 20000
+
+
 def test_debris(yade):
 	"""A rough one, to after the first blow: it reaches the wall and stays on the bed, boulders come along, and the energy is accounted for."""
 	run = yade(root / 'examples/debris/debris.py', '--cellSize', 1, '--end', 1.5, '--states', 4)
