@@ -76,10 +76,10 @@ namespace {
 
 	// True if the law leaves the strain unchanged: also for states on the yield surface, which return mapping may
 	// keep.
-	bool isKept(Real difference, Real size)
+	bool isKept(Real difference, Real size, Real tolerance = 1e-9)
 	{
-		constexpr Real roundOff = 1e-9, smallest = 1e-14;
-		return difference <= roundOff * size + smallest;
+		constexpr Real smallest = 1e-14;
+		return difference <= tolerance * size + smallest;
 	}
 
 	gimpm::Response respond(const gimpm::Material& material, const Vector3r& strain, const vector<Real>& internals)
@@ -92,6 +92,8 @@ namespace {
 		     << "): it can carry no more than the principal Kirchhoff stresses (" << response.stress.transpose() << ") Pa.";
 		throw std::invalid_argument(text.str());
 	}
+
+	constexpr Real ofIterations = 1e-6; // to which a user's law may solve its own equations
 
 	// One answer of a tensor law, to a point that does not turn.
 	gimpm::TensorAnswer answerOf(
@@ -108,7 +110,7 @@ namespace {
 	gimpm::TensorAnswer respondInSpace(const gimpm::Material& material, const Matrix3r& strain, const vector<Real>& internals)
 	{
 		const auto answer = answerOf(material.law, strain, internals);
-		if (isKept((answer.elasticStrain - strain).norm(), strain.norm())) return answer;
+		if (isKept((answer.elasticStrain - strain).norm(), strain.norm(), ofIterations)) return answer;
 		std::ostringstream text;
 		text << "the material yields under the elastic strain (" << gimpm::SymTensor<3>::from(strain).c.transpose()
 		     << ") along xx, yy, zz, xy, yz, zx: it can carry no more than the Kirchhoff stress ("
@@ -159,6 +161,10 @@ namespace {
 			if (solves == 0 && !gimpm::wordsOfUserLaw().empty())
 				throw std::invalid_argument("the law of the material cannot have a stress at first: " + gimpm::wordsOfUserLaw() + ".");
 			const Matrix3r difference = stress - answer.stress;
+			if (solves == 0 && bears && difference.norm() <= ofIterations * stress.norm()) {
+				respondInSpace(material, strain, internals);
+				return strain;
+			}
 			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // refuses states that yield
 			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;
 			strain += gimpm::fromMandel(gimpm::leastSquares(answer.tangent, gimpm::toMandel(difference)));

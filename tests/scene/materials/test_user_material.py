@@ -160,6 +160,34 @@ else: raise AssertionError('another name has been told')
 	)
 
 
+rough = '''extern "C" void umat_(double* stress, double*, double* D, double*, double*, double*, double*, double*, double*,
+                      double*, double*, const double* strain, double*, double*, double*, double*, double*, double*, char*, int*, int*, int*, int*, double* parameters)
+{
+	for (int i = 0; i < 6; ++i) {
+		for (int j = 0; j < 6; ++j) stress[i] += (D[6 * i + j] = i == j ? (i < 3 ? 20e6 : 10e6) : 0) * strain[j];
+		stress[i] *= 1 + parameters[0];
+	}
+}'''
+
+
+def test_a_law_that_solves_its_equations_to_a_tolerance_has_ground_at_rest(tmp_path):
+	"""As one by iterations does, it answers no strain with a stress that is off by its tolerance; off by more it yields."""
+	(tmp_path / 'law.cpp').write_text(rough)
+	subprocess.run(['g++', '-O1', '-shared', '-fPIC', '-o', tmp_path / 'law.so', tmp_path / 'law.cpp'], check=True)
+	yade = Yade(tmp_path)
+	yade.environment['UMAT'] = str(tmp_path / 'law.so')
+	yade(
+	        setting + '''
+for off in 1e-7, 1e-5:
+	law = MpmUserMat(density=2000, young=20e6, poisson=0, library=os.environ['UMAT'], parameters=[off])
+	solver = pressed(law, gravity=(0, -10, 0), gravityCurve=[(0, 1)])
+	try: mpm.geostatic(K0=.5)
+	except ValueError as error: assert off == 1e-5 and 'yields under the elastic strain' in str(error), error
+	else: assert off == 1e-7 and abs(mpm.arrays()['stress'][:, 1, 1].min() / -3.5e4 - 1) < 0.1, mpm.arrays()['stress']
+'''
+	)
+
+
 def test_a_law_that_ends_the_program_is_named(told):
 	run = told(
 	        counting + '''
