@@ -20,6 +20,13 @@ Eigen::Matrix3d tensorOf(const double* s, bool isStrain)
 
 extern "C" {
 
+void open_units() __attribute__((weak));
+
+__attribute__((constructor)) static void openUnits()
+{
+	if (open_units) open_units();
+}
+
 /// Principal values, the largest first. `kind`: 1 of a stress, 2 of a strain.
 void sprinc_(const double* s, double* principal, const int* kind, const int*, const int*)
 {

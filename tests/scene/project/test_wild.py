@@ -4,6 +4,7 @@ import ctypes
 import re
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -23,6 +24,17 @@ def test_sources_that_are_missing_are_named(tmp_path):
 	folder.mkdir(parents=True)
 	(folder / 'source.F90').write_text('')
 	assert not law.missing(tmp_path)
+
+
+def test_a_source_in_an_archive_is_unpacked(tmp_path):
+	law = laws['Cam clay, trust region']
+	assert law.missing(tmp_path) == law.sources
+	folder = tmp_path / 'NMTR_Method'
+	folder.mkdir()
+	with zipfile.ZipFile(folder / 'NMTR-Parallel.zip', 'w') as archive:
+		archive.writestr('NMTR-Parallel/NMTR_Method_CTO.for', '      end\n')
+	made = tmp_path / 'made'
+	assert not law.missing(tmp_path) and open(law.source(tmp_path, law.sources[0], made)).read() == '      end\n'
 
 
 def test_each_law_has_room_for_its_tensors():
