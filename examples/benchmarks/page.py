@@ -295,7 +295,7 @@ def table(heads, rows):
 
 INTRODUCTION = """# Where time and memory go
 
-`scripts/bench` measures time and memory (see `--help`), from the parts of a load step to whole scenes. Numbers are in `results/bench.json`. Machine:
+`scripts/bench` measures time and memory (see `--help`). Numbers are in `results/bench.json`. Machine:
 {processor}, {processors} processors. Revision: {revision}.
 
 ## Run it

@@ -48,8 +48,7 @@ public:
 		  "True: a step's last iterations keep the factorised matrix of the one before where that suffices: the same states to *tolerance*, fewer "
 		  "factorisations. False: never, as in the paper.");
 		v("keepFactor", &MpmNewton::keepFactor, 0,
-		  "Solves of a step [-] >= 0 that may take the factorised matrix of an earlier step, while so few are expected to suffice: 3 where steps change "
-		  "little. 0: none.",
+		  "Solves of a step [-] >= 0 that may take the factorised matrix of an earlier step, where that suffices: 3 where steps change little. 0: none.",
 		  atLeast(0));
 		v("linearSolver", &MpmNewton::linearSolver, 0,
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "
