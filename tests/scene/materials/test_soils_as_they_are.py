@@ -47,6 +47,7 @@ small = MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil)
 stiff, soft = (mpm.elementTest(m, 'triaxial', -1e-5, steps=1, confiningPressure=100e3, capPressure=1e7)['q'][-1] for m in (small, law))
 assert stiff > 1.5 * soft
 
+from scipy.integrate import trapezoid
 def loop(amplitude, steps=40):
 	"""Closed, at constant volume; elastic, as hardening is out of reach."""
 	state, stress, found = dict(capPressure=1e8, shearHardening=1.), np.full(3, -100e3), []
@@ -56,7 +57,7 @@ def loop(amplitude, steps=40):
 		state = {name: curve[name][-1] for name in curve if name in ('capPressure', 'shearHardening', 'stiffness', 'mobilisedFriction') or name.startswith('strainHistory')}
 		found.append((curve['stress'][:, 0, 0] - curve['stress'][:, 1, 1]) / 2)
 	down, up = found[1:]
-	lost = (np.trapz(up - up[0]) - np.trapz(down - down[-1])) * 2 * amplitude / steps
+	lost = (trapezoid(up - up[0]) - trapezoid(down - down[-1])) * 2 * amplitude / steps
 	return lost / (np.pi * np.ptp(up) * amplitude), np.ptp(up) / 2 / amplitude
 for amplitude in 1e-5, 1e-4: # branches of the hyperbola that begin anew at each turn
 	x = 2 * 0.385 * amplitude / 1e-4

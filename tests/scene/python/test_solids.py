@@ -82,7 +82,8 @@ with open('two.stl', 'w') as file:
 	moved((5, 0, 0), '', file)
 with open('far.stl', 'w') as file: moved((2600000.125, 5400000.375, 0), 'far', file)
 reader = vtkSTLReader()
-reader.SetFileName('two.stl')
+open('lower.stl', 'w').write(open('two.stl').read().replace('Solid ', 'solid ')) # VTK 9.6 takes other spellings for a binary file
+reader.SetFileName('lower.stl')
 reader.Update()
 mesh = reader.GetOutput()
 vtk = np.array([[mesh.GetPoint(mesh.GetCell(i).GetPointId(k)) for k in range(3)] for i in range(mesh.GetNumberOfCells())])
