@@ -29,7 +29,8 @@ public:
 	/// There is no factor any more.
 	void discard() { unknowns_ = {}; }
 
-	/// True if a step with these unknowns may begin with it. Counts the steps in which it may not, after it has failed.
+	/// True if a step with these unknowns may begin with it. Counts the steps in which it may not, after it has
+	/// failed.
 	bool isOffered(const Unknowns& unknowns)
 	{
 		if (pause_ > 0) return --pause_, false;

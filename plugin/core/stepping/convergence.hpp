@@ -15,6 +15,9 @@ public:
 
 	void note(double residual, double excess) { residuals_.push_back(residual), excesses_.push_back(excess); }
 
+	/// Reductions up to now, by another method, tell nothing of those to come.
+	void changeMethod() { first_ = residuals_.size() - 1; }
+
 	const std::vector<double>& residuals() const { return residuals_; }
 	double                     residual() const { return residuals_.back(); }
 	double                     excess() const { return excesses_.back(); }
@@ -43,7 +46,7 @@ public:
 	{
 		constexpr double slow = 0.1, alike = 0.3, many = 3; // limits for going on: Newton's iterations are few
 		const auto&      r = residuals_;
-		if (r.size() < 3) return false;
+		if (r.size() < first_ + 3) return false;
 		const double before = r[r.size() - 2] / r[r.size() - 3];
 		return reduction() > slow || (reduction() > alike * before && std::log(excess()) > -many * std::log(reduction()));
 	}
@@ -62,7 +65,7 @@ public:
 
 private:
 	/// Factor by which the last iteration reduced the residual; 1 if it did not.
-	double reduction() const { return residuals_.size() < 2 ? 1 : std::min(1., residual() / residuals_[residuals_.size() - 2]); }
+	double reduction() const { return residuals_.size() < first_ + 2 ? 1 : std::min(1., residual() / residuals_[residuals_.size() - 2]); }
 	/// Excess that quadratic convergence leads to in the next iteration.
 	double expected() const { return excess() * std::pow(reduction(), 2); }
 	bool   suffices(double excess, double reduction) const { return reuseFactor_ && excess * reduction <= 1; }
@@ -70,6 +73,7 @@ private:
 	double              tolerance_;
 	bool                reuseFactor_;
 	std::vector<double> residuals_, excesses_;
+	std::size_t         first_ = 0; ///< iterate of the method
 };
 
 /// Tests the iterates one after the other. With the tolerance t,
@@ -105,11 +109,17 @@ public:
 		if (settings_.interrupted && settings_.interrupted()) return fail(report_, Failure::interrupted, "it was interrupted");
 		if (history.hasStopped() && residual_.isRoundOff(d))
 			return fail(report_, Failure::stalled, causeOfStall(relative, history.attained(), settings_.tolerance));
-		if (solves_ < settings_.maxIterations) return false;
+		if (!isLast(0)) return false;
 		return fail(report_, Failure::tooManyIterations, causeOfTooMany(report_, settings_.tolerance, isWholeInBalance_, solves_));
 	}
 
 	int solves() const { return solves_; } ///< number of solves that have led to the last iterate
+
+	/// The next solve takes the factor of an earlier step: it does not count among those allowed.
+	void allowAnother() { ++more_; }
+
+	/// True if no more are allowed after so many others.
+	bool isLast(int others) const { return solves_ + others >= settings_.maxIterations + more_; }
 
 	/// |r| / |external forces + reactions|
 	double relative() const { return residual_.relative(solves_ > 0); }
@@ -138,6 +148,7 @@ private:
 	StepReport&            report_;
 	const NewtonSettings&  settings_         = system_.model.newton;
 	int                    solves_           = -1;
+	int                    more_             = 0; // solves than maxIterations
 	bool                   isWholeInBalance_ = false;
 };
 

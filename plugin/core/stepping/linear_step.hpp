@@ -32,7 +32,11 @@ public:
 	/// True if the factor that is kept is that of an earlier step, and this excess of the residual is gone after
 	/// the solves with it that are left.
 	bool isOfEarlierStep() const { return isOld_; }
-	bool isOldFactorEnough(double excess) const { return solver_.kept.isEnough(excess, system_.model.newton.keepFactor - again_); }
+	bool isOldFactorEnough(double excess) const
+	{
+		const NewtonSettings& newton = system_.model.newton;
+		return solver_.kept.isEnough(excess, std::min(newton.keepFactor, newton.maxIterations) - again_);
+	}
 
 	/// A solve with the factor that is kept has left this part of the residual; the step has converged.
 	void noteReduction(double part);

@@ -164,8 +164,14 @@ private:
 		if (!linear_.keepsFactor() || watchdog_.isOpen()) return false;
 		if (!linear_.isOfEarlierStep()) return test_.history.isLastFactorEnough();
 		if (linear_.isOldFactorEnough(test_.history.excess())) return true;
-		linear_.dropFactor();
+		dropFactor();
 		return false;
+	}
+
+	void dropFactor()
+	{
+		if (linear_.isOfEarlierStep()) test_.history.changeMethod();
+		linear_.dropFactor();
 	}
 
 	/// Modified Newton step with the factor of the last solve. Unless it reduces the residual nothing is changed.
@@ -177,11 +183,12 @@ private:
 		if (!linear_.solveAgain(residual_.values, step)) return false;
 		residual_.evaluate(d_ + step, false);
 		if (!test_.improves(d_ + step, before)) {
-			linear_.dropFactor();
+			dropFactor();
 			residual_.evaluate(d_, true);
 			return false;
 		}
 		linear_.noteReduction(residual_.norm / before);
+		if (linear_.isOfEarlierStep()) test_.allowAnother();
 		++report_.reusedFactors;
 		d_ += step;
 		return true;
@@ -223,7 +230,7 @@ private:
 		return std::isfinite(residual_.norm) ? linear_.work(step, residual_.values) : -std::numeric_limits<double>::infinity();
 	}
 
-	bool mayGoOn() const { return !watchdog_.wasVain() && std::isfinite(residual_.norm) && test_.solves() + 1 < settings_.maxIterations; }
+	bool mayGoOn() const { return !watchdog_.wasVain() && std::isfinite(residual_.norm) && !test_.isLast(1); }
 	bool goBack()
 	{
 		watchdog_.giveUp();
