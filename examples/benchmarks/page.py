@@ -284,8 +284,9 @@ sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, 
 
 
 def comparison(found, revision):
-	"""Times of this revision and another."""
-	rows = [[part, f'{1e3 * ours:.4g}', f'{1e3 * theirs:.4g}', f'{ours / theirs:.2f}' if theirs else ''] for part, (ours, theirs) in found.items()]
+	"""Times of this revision and another; whole runs that take 3 % longer are marked."""
+	isSlower = lambda part, ours, theirs: part.endswith('whole run') and ours > 1.03 * theirs
+	rows = [[part, f'{1e3 * ours:.4g}', f'{1e3 * theirs:.4g}', f'{ours / theirs:.2f}{", slower" * isSlower(part, ours, theirs)}' if theirs else ''] for part, (ours, theirs) in found.items()]
 	return table(['part', 'this revision [ms]', f'{revision} [ms]', 'this / other'], rows)
 
 

@@ -4,7 +4,7 @@
 	scripts/bench                       everything below
 	scripts/bench kernels features      these only; the others keep their last results
 	scripts/bench --large               a step of a million points in 3D
-	scripts/bench --compare HEAD~5      this revision against another one, measured alternately
+	scripts/bench --compare HEAD~5      this revision against another one, measured alternately, a quarter of an hour; whole runs are kept in results/history.csv
 	scripts/bench --bits HEAD~5         whether small forms of the examples, and small scenes of all that acts on points, end with the same bits as there, with one thread and with two
 
   kernels    parts of a load step on a slope half way through its failure, and OpenBLAS' dgemm (Google Benchmark)
@@ -24,6 +24,7 @@
 Writes results/bench.json and a page with the tables (README.md). Nothing else should run meanwhile. It takes about five minutes.
 """
 import argparse
+import csv
 import json
 import os
 import shutil
@@ -289,9 +290,11 @@ def otherRevision(revision):
 
 def compare(here, there):
 	"""Seconds of (this revision, the other) by part, each the least of the rounds."""
-	plans = dict(
-	        slope=dict(cellSize=.5, steps=20), elastic=dict(cellSize=.5, steps=20, elastic=True), recorder=dict(cellSize=.5, steps=20, recorder=True),
-	        slice=dict(cellSize=1, pointsPerCell=2, depth=4, steps=10))
+	plans = {
+	        'slope': dict(cellSize=.5, steps=20), 'elastic': dict(cellSize=.5, steps=20, elastic=True), 'recorder': dict(cellSize=.5, steps=20, recorder=True),
+	        'largest slope': dict(cellSize=.25), 'largest slope, 2 threads': dict(threads=2, cellSize=.25), 'slice': dict(cellSize=.5, pointsPerCell=2, depth=4, steps=10),
+	        'slice, 2 threads': dict(threads=2, cellSize=.5, pointsPerCell=2, depth=4, steps=10), 'flow': dict(scene='water', cellSize=.25, steps=20, elastic=True),
+	        'run-out': dict(scene='column', cellSize=1 / 16, steps=160), 'explicit steps': dict(scene='column', cellSize=1 / 32, steps=200, isExplicit=True)}
 	if options.quick: plans = dict(slope=dict(cellSize=1, steps=2))
 	haveKernels = os.path.exists(os.path.join(there.folder, 'tests/bench/kernels.cpp')) and not options.quick
 	found = {}
@@ -310,6 +313,17 @@ def compare(here, there):
 			for name, counters in (one.kernels(shortest=.05) if haveKernels else {}).items():
 				note(f'kernel {name}', which, counters['real_time'] * dict(ns=1e-9, us=1e-6, ms=1e-3, s=1)[counters['time_unit']])
 	return found
+
+
+def remember(found, revision):
+	"""Appends the whole runs to the history: day, this revision and the other, part, seconds of both, their ratio."""
+	ours, day = page.machine()['revision'], time.strftime('%Y-%m-%d')
+	rows = [[day, ours, revision, part.removesuffix(': whole run'), *(f'{x:.4g}' for x in pair), f'{pair[0] / pair[1]:.3f}'] for part, pair in found.items() if part.endswith(': whole run')]
+	path = os.path.join(examples, 'results', 'history.csv')
+	isNew = not os.path.exists(path)
+	with open(path, 'a', newline='') as file:
+		table = csv.writer(file, lineterminator='\n')
+		table.writerows([['day', 'revision', 'beside', 'part', 'seconds', 'beside [s]', 'ratio']] * isNew + rows)
 
 
 def sameBits(here, there):
@@ -337,10 +351,13 @@ def main(study, arguments):
 	chosen = study.chosen(options.part, parts, 'part') if options.part else ['large'] if options.large else [name for name in parts if name != 'large']
 	isNamed = options.part or '--out' in arguments
 	if options.bits and (isNamed or options.compare): study.fail('--bits goes with no other option')
-	if options.compare and isNamed: study.fail('--compare measures parts of its own, and writes nothing')
+	if options.compare and isNamed: study.fail('--compare measures parts of its own, and writes to results/history.csv')
 	here = Installation(root, options.user)
 	if options.bits: return int(not sameBits(here, otherRevision(options.bits)))
-	if options.compare: return print(page.comparison(compare(here, otherRevision(options.compare)), options.compare))
+	if options.compare:
+		found = compare(here, otherRevision(options.compare))
+		if not options.quick: remember(found, options.compare)
+		return print(page.comparison(found, options.compare))
 	makeFolder(options.out)
 	results = page.load(options.out)
 	results['machine'] = page.machine()
