@@ -2,8 +2,6 @@
 """Page of where time and memory go, from results/bench.json."""
 import json
 import os
-import shutil
-import subprocess
 import sys
 
 import numpy as np
@@ -43,9 +41,7 @@ def machine():
 	"""Machine that the times depend on."""
 	with open('/proc/cpuinfo') as file:
 		model = next(line.partition(':')[2].strip() for line in file if line.startswith('model name'))
-	describe = ['git', '-C', here, 'describe', '--always', '--dirty']
-	revision = subprocess.run(describe, capture_output=True, text=True).stdout.strip() if shutil.which('git') else ''
-	return dict(processor=model, processors=os.cpu_count(), revision=revision or 'unknown')
+	return dict(processor=model, processors=os.cpu_count(), revision=studies.revision() or 'unknown')
 
 
 def kernels(results):

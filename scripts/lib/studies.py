@@ -8,6 +8,7 @@ import csv
 import os
 import re
 import shutil
+import subprocess
 import time
 
 import pages
@@ -17,6 +18,11 @@ root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 home = os.path.join(root, 'plugin', 'docs', 'studies')
 mostWords = 600
 listed = ['file', 'title', 'command', 'note']
+
+
+def revision():
+	"""That of git, with -dirty where files have changed; empty where there is no git, or no repository."""
+	return subprocess.run(['git', '-C', root, 'describe', '--always', '--dirty'], capture_output=True, text=True).stdout.strip() if shutil.which('git') else ''
 
 
 def names():

@@ -11,8 +11,6 @@ import importlib
 import os
 import queue
 import shlex
-import shutil
-import subprocess
 import sys
 import threading
 import time
@@ -84,7 +82,7 @@ class Study:
 	@property
 	def provenance(self):
 		"""Day and revision of a run, where git is there to tell it."""
-		revision = shutil.which('git') and subprocess.run(['git', '-C', root, 'describe', '--always', '--dirty'], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+		revision = studies.revision()
 		return time.strftime('%d %B %Y') + f', revision {revision}' * bool(revision)
 
 	def table(self, keys, values, name=None):

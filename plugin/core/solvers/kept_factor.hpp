@@ -8,8 +8,8 @@
 
 namespace gimpm {
 
-/// What the last factor is of, and how well it has served since. A step with the same unknowns may begin with it, by
-/// the modified Newton method, as long as a few solves are expected to do.
+/// Record of what the last factor is of, and how well it has served since. A step with the same unknowns may begin with
+/// it, by the modified Newton method, as long as a few solves are expected to do.
 class KeptFactor {
 public:
 	/// Numbers of the free unknowns, and scales of the fields.

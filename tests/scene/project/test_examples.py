@@ -828,11 +828,11 @@ def test_dry_grains_beside_a_continuum(yade):
 
 
 def test_silo_beside_a_continuum(yade):
-	"""A few large grains: they and the continuum flow, and walls that rub bear a part of both. A single sample, another one with each YADE, scatters."""
-	run = yade(root / 'examples' / 'mpm_vs_dem' / 'silo.py', '--seeds', 1, '--grains', 10, '--sample', 8, '--pressures', '10e3', '--strain', 0.04, '--openings', 0.5, '--cells', 12, '--height', 1, '--empty', 0.3)
+	"""A few large grains: they and the continuum flow, and walls that rub bear a part of both. Each YADE makes another sample of the seed."""
+	run = yade(root / 'examples' / 'mpm_vs_dem' / 'silo.py', '--seeds', 2, '--grains', 10, '--sample', 8, '--pressures', '10e3', '--strain', 0.04, '--openings', 0.5, '--cells', 12, '--height', 1, '--empty', 0.3)
 	rate, load = numbers(r'DEM: (\S+) .*base bears (\S+)', run.stdout)
 	ours, borne, janssen = numbers(r'MPM, .*?: (\S+) .*base bears (\S+) of the weight, Janssen ([.\d]+)', run.stdout)
-	assert 1 < ours / rate < 4 and 0.6 < load < 1.1 and abs(borne / janssen - 1) < 0.05, run.stdout
+	assert 1 < ours / rate < 3 and 0.6 < load < 1.1 and abs(borne / janssen - 1) < 0.05, run.stdout
 	assert (run.folder / 'out/silo/silo.png').stat().st_size > 20000
 
 
